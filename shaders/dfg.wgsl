@@ -1,0 +1,38 @@
+// The entry point that bakes (A, B) for a range of a grid's texels, one invocation each: see src/backend/vulkan/bake.rs.
+
+@group(0) @binding(1) var<storage, read> mus: array<f32>;
+@group(0) @binding(2) var<storage, read> alphas: array<f32>;
+@group(0) @binding(3) var<storage, read_write> integrals: array<vec2<f32>>;
+
+struct Job {
+    // The texels from `first` up to, not including, `end`; n.v varies fastest.
+    first: u32,
+    end: u32,
+    rule: Rule,
+}
+
+var<immediate> job: Job;
+
+// The limit alpha -> 0 at fixed n.v: a perfect mirror.
+fn mirror(mu: f32) -> vec2<f32> {
+    let b = schlick_weight(mu);
+    return vec2<f32>(1.0 - b, b);
+}
+
+// (A, B) at n.v = mu and alpha, both in [0, 1].
+fn integrate(mu: f32, alpha: f32, rule: Rule) -> vec2<f32> {
+    if alpha == 0.0 {
+        return mirror(mu);
+    }
+    return h_space(mu, alpha, rule);
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let texel = job.first + id.x;
+    if texel >= job.end {
+        return;
+    }
+    let width = arrayLength(&mus);
+    integrals[id.x] = integrate(mus[texel % width], alphas[texel / width], job.rule);
+}

@@ -1,0 +1,237 @@
+//! An axis of a table: which parameter, through which mapping, at which nodes. The only half-texel arithmetic in the crate.
+//!
+//! Texel i of N lies at t = (i + offset)/N (centres: offset ½) or t = i/(N-1) (edges), clamped to [0, 1]; a flipped axis
+//! counts its texels from the other end; the mapping carries t to the parameter.
+
+use crate::error::{Error, Result};
+use crate::units::{Alpha, Cosine, PerceptualRoughness};
+use serde::Serialize;
+use std::fmt;
+use std::str::FromStr;
+
+/// The largest number of texels along an axis.
+pub const LARGEST_SIZE: usize = 16384;
+
+/// What varies along an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Parameter {
+    /// μ = n·v, the cosine to the view.
+    Nov,
+    /// Perceptual roughness r, α = r².
+    Roughness,
+    /// α itself.
+    Alpha,
+}
+
+/// How a position t in [0, 1] along the axis becomes the parameter p in [0, 1].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mapping {
+    /// p = t
+    Linear,
+    /// t = √p, so p = t²: more texels at small p.
+    Sqrt,
+    /// t = √(1-p), so p = 1 - t²: t = 0 at p = 1.
+    SqrtComplement,
+}
+
+/// Where the texels lie.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Nodes {
+    /// t = i/(N-1); with one texel t = 0.
+    Edges,
+    /// t = (i + offset)/N; ½ is texel centres.
+    Offset(f64),
+}
+
+/// An axis without its size: what the words `nov,sqrt,edges,flip` say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxisSpec {
+    /// What varies.
+    pub parameter: Parameter,
+    /// How.
+    pub mapping: Mapping,
+    /// At which nodes.
+    pub nodes: Nodes,
+    /// Whether texel 0 is the far end.
+    pub flip: bool,
+    /// Parameters below this are raised to it.
+    pub min: f64,
+}
+
+/// An axis of a table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    /// What the words say.
+    pub spec: AxisSpec,
+    /// The number of texels.
+    pub size: usize,
+}
+
+impl AxisSpec {
+    /// Linear, texel centres.
+    pub const fn of(parameter: Parameter) -> Self {
+        AxisSpec { parameter, mapping: Mapping::Linear, nodes: Nodes::Offset(0.5), flip: false, min: 0.0 }
+    }
+}
+
+impl Axis {
+    /// Checks size and parameter range at every texel.
+    pub fn new(spec: AxisSpec, size: usize) -> Result<Self> {
+        if !(1..=LARGEST_SIZE).contains(&size) {
+            return Err(Error::bad_input(
+                "size",
+                format!("1 to {LARGEST_SIZE} texels along each axis"),
+                size.to_string(),
+                "give a size in that range",
+            ));
+        }
+        let axis = Axis { spec, size };
+        for i in 0..size {
+            let value = axis.value(i);
+            let checked = match spec.parameter {
+                Parameter::Nov => Cosine::new(value).map(drop),
+                Parameter::Roughness => PerceptualRoughness::new(value).map(drop),
+                Parameter::Alpha => Alpha::new(value).map(drop),
+            };
+            checked.map_err(|error| match error {
+                Error::BadInput(mut complaint) => {
+                    complaint.what = format!("{} at texel {i} of axis '{spec}'", complaint.what);
+                    complaint.cure = "choose other nodes, or raise the axis's min".into();
+                    Error::BadInput(complaint)
+                }
+                other => other,
+            })?;
+        }
+        Ok(axis)
+    }
+
+    /// The parameter at texel `i`.
+    pub fn value(&self, i: usize) -> f64 {
+        let i = if self.spec.flip { self.size - 1 - i } else { i } as f64;
+        let t = match self.spec.nodes {
+            Nodes::Edges => i / (self.size as f64 - 1.0).max(1.0),
+            Nodes::Offset(offset) => (i + offset) / self.size as f64,
+        }
+        .clamp(0.0, 1.0);
+        let p = match self.spec.mapping {
+            Mapping::Linear => t,
+            Mapping::Sqrt => t * t,
+            Mapping::SqrtComplement => (1.0 - t) * (1.0 + t),
+        };
+        p.max(self.spec.min)
+    }
+
+    /// The fractional texel at which the parameter is `p`: the inverse of [`Axis::value`] wherever that does not clamp.
+    pub fn texel(&self, p: f64) -> f64 {
+        let t = match self.spec.mapping {
+            Mapping::Linear => p,
+            Mapping::Sqrt => p.max(0.0).sqrt(),
+            Mapping::SqrtComplement => (1.0 - p).max(0.0).sqrt(),
+        };
+        let i = match self.spec.nodes {
+            Nodes::Edges => t * (self.size as f64 - 1.0).max(1.0),
+            Nodes::Offset(offset) => t * self.size as f64 - offset,
+        };
+        if self.spec.flip { self.size as f64 - 1.0 - i } else { i }
+    }
+
+    /// The parameter at every texel, in order.
+    pub fn values(&self) -> Vec<f64> {
+        (0..self.size).map(|i| self.value(i)).collect()
+    }
+
+    /// The position of a texel as a formula in i, for the metadata.
+    pub fn formula(&self) -> String {
+        let n = self.size;
+        let i = if self.spec.flip { format!("({} - i)", n - 1) } else { "i".into() };
+        let t = match self.spec.nodes {
+            Nodes::Edges => format!("{i}/{}", (n - 1).max(1)),
+            Nodes::Offset(offset) => format!("({i} + {offset})/{n}"),
+        };
+        let p = match self.spec.mapping {
+            Mapping::Linear => "t",
+            Mapping::Sqrt => "t^2",
+            Mapping::SqrtComplement => "1 - t^2",
+        };
+        let min = self.spec.min;
+        let p = if min > 0.0 { format!("max({p}, {min})") } else { p.into() };
+        format!("{} = {p}, t = clamp({t}, 0, 1)", self.spec.parameter)
+    }
+}
+
+/// What the words of an axis can be; the text of `--help` and of errors.
+pub const AXIS_WORDS: &str = "PARAMETER[,MAPPING][,NODES][,flip][,min=X] with PARAMETER nov, roughness or alpha; \
+MAPPING linear, sqrt (t = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES centres, edges or offset=X with X in [-2, 2]";
+
+impl FromStr for AxisSpec {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        let wrong = |got: &str| Error::bad_input("axis", AXIS_WORDS, format!("'{got}' in '{text}'"), "use those words");
+        let mut words = text.split(',').map(str::trim);
+        let parameter = match words.next().unwrap_or_default() {
+            "nov" => Parameter::Nov,
+            "roughness" => Parameter::Roughness,
+            "alpha" => Parameter::Alpha,
+            other => return Err(wrong(other)),
+        };
+        let mut spec = AxisSpec::of(parameter);
+        let number = |text: &str, low: f64, high: f64| {
+            text.parse().ok().filter(|x: &f64| (low..=high).contains(x)).ok_or_else(|| wrong(text))
+        };
+        for word in words {
+            match word.split_once('=') {
+                None => match word {
+                    "linear" => spec.mapping = Mapping::Linear,
+                    "sqrt" => spec.mapping = Mapping::Sqrt,
+                    "sqrt-complement" => spec.mapping = Mapping::SqrtComplement,
+                    "centres" => spec.nodes = Nodes::Offset(0.5),
+                    "edges" => spec.nodes = Nodes::Edges,
+                    "flip" => spec.flip = true,
+                    other => return Err(wrong(other)),
+                },
+                Some(("offset", x)) => spec.nodes = Nodes::Offset(number(x, -2.0, 2.0)?),
+                Some(("min", x)) => spec.min = number(x, 0.0, 1.0)?,
+                Some(_) => return Err(wrong(word)),
+            }
+        }
+        Ok(spec)
+    }
+}
+
+impl fmt::Display for Parameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Parameter::Nov => "nov",
+            Parameter::Roughness => "roughness",
+            Parameter::Alpha => "alpha",
+        })
+    }
+}
+
+impl fmt::Display for AxisSpec {
+    /// The words that [`AxisSpec::from_str`] reads back to the same axis.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mapping = match self.mapping {
+            Mapping::Linear => "linear",
+            Mapping::Sqrt => "sqrt",
+            Mapping::SqrtComplement => "sqrt-complement",
+        };
+        write!(f, "{},{mapping}", self.parameter)?;
+        match self.nodes {
+            Nodes::Edges => write!(f, ",edges")?,
+            Nodes::Offset(0.5) => write!(f, ",centres")?,
+            Nodes::Offset(offset) => write!(f, ",offset={offset}")?,
+        }
+        if self.flip {
+            write!(f, ",flip")?;
+        }
+        if self.min > 0.0 {
+            write!(f, ",min={}", self.min)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,112 @@
+//! From WGSL modules to SPIR-V: the modules of a bake joined, compiled by naga with every option spelled out, and the
+//! sizes that the host needs read off the result.
+
+use crate::error::{Error, Result};
+use crate::model::{Masking, Microfacet, Ndf};
+use crate::quadrature::slope_map::Power;
+use naga::back::spv;
+use naga::valid::{Capabilities, ShaderStages, SubgroupOperationSet, ValidationFlags, Validator};
+
+/// The WGSL modules, each the twin of the Rust module of the same name.
+pub mod wgsl {
+    /// Twin of `model::fresnel`.
+    pub const FRESNEL: &str = include_str!("../../shaders/fresnel.wgsl");
+    /// Twin of `model::ggx`.
+    pub const GGX: &str = include_str!("../../shaders/ggx.wgsl");
+    /// Twin of `model::masking`.
+    pub const MASKING: &str = include_str!("../../shaders/masking.wgsl");
+    /// Twin of `quadrature::slope_map`.
+    pub const SLOPE_MAP: &str = include_str!("../../shaders/slope_map.wgsl");
+    /// Twin of `integrate::h_space`.
+    pub const H_SPACE: &str = include_str!("../../shaders/h_space.wgsl");
+    /// The entry point of a DFG bake.
+    pub const DFG: &str = include_str!("../../shaders/dfg.wgsl");
+}
+
+/// A compiled compute shader and what the host has to know of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Kernel {
+    /// SPIR-V 1.3 with the entry point `main`.
+    pub spirv: Vec<u32>,
+    /// Invocations in a workgroup.
+    pub workgroup: usize,
+    /// Its storage buffers are bindings 0 to this, exclusive, of set 0.
+    pub buffers: u32,
+    /// Bytes of its push constants.
+    pub push_bytes: u32,
+}
+
+/// The WGSL of the functions that make a lobe, for [`wgsl::H_SPACE`] to call.
+pub fn lobe_source(lobe: Microfacet, power: Power) -> String {
+    let (density, smith) = match lobe.ndf {
+        Ndf::Ggx => ("ggx_slope_density(y2)", "ggx_smith(c, alpha)"),
+    };
+    let visibility = match lobe.masking {
+        Masking::HeightCorrelated => "height_correlated(x, mu, smith(x, alpha), smith(mu, alpha))",
+        Masking::Separable => "separable(x, mu, smith(x, alpha), smith(mu, alpha))",
+        Masking::SchlickSmith => "schlick_smith(x, mu, alpha)",
+    };
+    let power = match power {
+        Power::Two => 2,
+        Power::Four => 4,
+    };
+    let glue = format!(
+        "const POWER = {power}u;
+fn slope_density(y2: f32) -> f32 {{ return {density}; }}
+fn smith(c: f32, alpha: f32) -> f32 {{ return {smith}; }}
+fn cosine_visibility(x: f32, mu: f32, alpha: f32) -> f32 {{ return {visibility}; }}
+"
+    );
+    [wgsl::FRESNEL, wgsl::GGX, wgsl::MASKING, wgsl::SLOPE_MAP, wgsl::H_SPACE, &glue].join("\n")
+}
+
+/// The shader that bakes (A, B) of a lobe.
+pub fn dfg_kernel(lobe: Microfacet, power: Power) -> Result<Kernel> {
+    compile(&[&lobe_source(lobe, power), wgsl::DFG].join("\n"))
+}
+
+/// Compiles WGSL whose compute entry point is `main`.
+pub fn compile(source: &str) -> Result<Kernel> {
+    let internal = |what: &str, text: String| Error::Internal(format!("{what} of a shader: {text}"));
+    let module =
+        naga::front::wgsl::parse_str(source).map_err(|error| internal("parsing", error.emit_to_string(source)))?;
+    // Only what the poorest driver has: no f16, no f64, no subgroups.
+    let info = Validator::new(ValidationFlags::all(), Capabilities::IMMEDIATES)
+        .subgroup_stages(ShaderStages::empty())
+        .subgroup_operations(SubgroupOperationSet::empty())
+        .validate(&module)
+        .map_err(|error| internal("validation", error.emit_to_string(source)))?;
+    let bindings = module.global_variables.iter().filter_map(|(_, variable)| variable.binding);
+    let binding_map: spv::BindingMap = bindings
+        .map(|binding| {
+            let info =
+                spv::BindingInfo { descriptor_set: binding.group, binding: binding.binding, binding_array_size: None };
+            (binding, info)
+        })
+        .collect();
+    let push = module.global_variables.iter().filter(|(_, v)| v.space == naga::AddressSpace::Immediate);
+    let push_bytes = push.map(|(_, v)| module.types[v.ty].inner.size(module.to_ctx())).sum();
+    let entry = module.entry_points.iter().find(|entry| entry.name == "main");
+    let workgroup = entry.map_or(0, |entry| entry.workgroup_size.iter().product::<u32>());
+    let buffers = binding_map.len() as u32;
+    let options = spv::Options {
+        lang_version: (1, 3),
+        flags: spv::WriterFlags::empty(),
+        fake_missing_bindings: false,
+        binding_map,
+        bounds_check_policies: naga::proc::BoundsCheckPolicies {
+            index: naga::proc::BoundsCheckPolicy::Restrict,
+            buffer: naga::proc::BoundsCheckPolicy::Restrict,
+            image_load: naga::proc::BoundsCheckPolicy::Restrict,
+            binding_array: naga::proc::BoundsCheckPolicy::Restrict,
+        },
+        // Every loop here counts up to a bound that is uniform over the dispatch, and every divisor is an array's length.
+        force_loop_bounding: false,
+        emit_int_div_checks: false,
+        ..spv::Options::default()
+    };
+    let pipeline = spv::PipelineOptions { shader_stage: naga::ShaderStage::Compute, entry_point: "main".into() };
+    let spirv = spv::write_vec(&module, &info, &options, Some(&pipeline))
+        .map_err(|error| internal("code generation", error.to_string()))?;
+    Ok(Kernel { spirv, workgroup: workgroup as usize, buffers, push_bytes })
+}

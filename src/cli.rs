@@ -1,0 +1,74 @@
+//! The command line: flags and configurations become requests; files are read and written, and people are talked to, here
+//! and nowhere else.
+
+mod bake;
+mod config;
+mod depfile;
+mod devices;
+mod output;
+mod progress;
+mod table_args;
+
+use crate::error::{Complaint, Error, ExitCode, Result};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use std::ffi::OsString;
+use std::io::Write;
+
+/// Bakes preintegrated BRDF lookup tables on Vulkan compute or the CPU, checks them, and says how far each is from the truth.
+#[derive(Parser)]
+#[command(name = "splitsum", version, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Bake a table, or all tables of a configuration
+    Bake(Box<bake::BakeArgs>),
+    /// List the Vulkan devices, the preferred one first
+    Devices(devices::DevicesArgs),
+}
+
+/// Runs the program with these arguments, the first being its name; what comes back is its exit code.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let arguments = arguments.into_iter().map(depfile::long_flag);
+    let codes = ExitCode::MEANINGS.map(|(code, meaning)| format!("  {}  {meaning}", code as u8)).join("\n");
+    let codes = format!("Exit codes:\n{codes}");
+    let command = Cli::command().after_help(&codes).mut_subcommands(|command| command.after_help(&codes));
+    let cli = match command.try_get_matches_from(arguments).and_then(|matches| Cli::from_arg_matches(&matches)) {
+        Ok(cli) => cli,
+        Err(error) => {
+            let _ = error.print();
+            return if error.use_stderr() { ExitCode::Usage as u8 } else { ExitCode::Success as u8 };
+        }
+    };
+    let outcome = match cli.command {
+        Command::Bake(arguments) => bake::run(*arguments),
+        Command::Devices(arguments) => devices::run(&arguments),
+    };
+    match outcome {
+        Ok(()) => ExitCode::Success as u8,
+        Err(error) => {
+            let _ = writeln!(std::io::stderr(), "splitsum: {error}");
+            error.exit_code() as u8
+        }
+    }
+}
+
+/// Prints to standard output; a closed pipe is an error like any other.
+fn print(text: &str) -> Result<()> {
+    let failed = output::failed("write to", "standard output", "check what reads it");
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "{text}").and_then(|()| out.flush()).map_err(failed)
+}
+
+/// Prints as JSON.
+fn print_json(value: &impl serde::Serialize) -> Result<()> {
+    print(&serde_json::to_string_pretty(value).map_err(|error| Error::Internal(error.to_string()))?)
+}
+
+/// A complaint about flags that do not go together.
+fn usage(what: &str, expected: &str, got: &str, cure: &str) -> Error {
+    Error::Usage(Complaint::new(what, expected, got, cure))
+}

@@ -1,0 +1,63 @@
+//! Configurations: TOML files with a `[[table]]` for each table.
+
+use super::output;
+use super::table_args::{Job, TableArgs};
+use crate::error::{Error, Result};
+use serde::Deserialize;
+use std::collections::HashSet;
+use std::path::Path;
+
+/// A configuration larger than this is a mistake.
+const LARGEST: u64 = 1 << 20;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Config {
+    #[serde(default)]
+    table: Vec<TableArgs>,
+}
+
+/// The jobs of a configuration; relative outputs are relative to the configuration's folder.
+pub fn read(path: &str) -> Result<Vec<Job>> {
+    let io = output::failed("read", path, "name a TOML file that can be read");
+    let size = std::fs::metadata(path).map_err(&io)?.len();
+    let wrong = |expected: &str, got: String, cure: &str| Error::bad_input(path, expected, got, cure);
+    if size > LARGEST {
+        return Err(wrong("a configuration of at most 1 MiB", format!("{size} bytes"), "name a TOML file"));
+    }
+    let bytes = std::fs::read(path).map_err(&io)?;
+    let text =
+        String::from_utf8(bytes).map_err(|_| wrong("TOML", "bytes that are not UTF-8".into(), "name a TOML file"))?;
+    let keys = "use the names of 'splitsum bake --help' without the dashes";
+    let config: Config = toml::from_str(&text)
+        .map_err(|error| wrong("[[table]] entries", format!("\n{}", error.to_string().trim_end()), keys))?;
+    if config.table.is_empty() {
+        return Err(wrong("at least one [[table]]", "none".into(), "add one"));
+    }
+    let folder = Path::new(path).parent().unwrap_or(Path::new(""));
+    let mut outputs = HashSet::new();
+    let mut jobs = Vec::new();
+    for (index, table) in config.table.into_iter().enumerate() {
+        let name = format!("{path}, table {}", index + 1);
+        let mut job = table.job().map_err(|error| in_table(&name, error))?;
+        match &table.output {
+            Some(output) if output != "-" => job.output = folder.join(output).to_string_lossy().into_owned(),
+            _ => return Err(Error::bad_input(name, "an output file", "none", "add output = \"FILE\"")),
+        }
+        if !outputs.insert(job.output.clone()) {
+            return Err(Error::bad_input(name, "an output of its own", job.output, "rename one of the two"));
+        }
+        jobs.push(job);
+    }
+    Ok(jobs)
+}
+
+fn in_table(name: &str, error: Error) -> Error {
+    match error {
+        Error::BadInput(mut complaint) => {
+            complaint.what = format!("{name}: {}", complaint.what);
+            Error::BadInput(complaint)
+        }
+        other => other,
+    }
+}

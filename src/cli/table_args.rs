@@ -1,0 +1,179 @@
+//! The description of a table, as flags and as the keys of a configuration: the same names for both.
+
+use crate::axis::{Axis, AxisSpec, Parameter};
+use crate::encode::Format;
+use crate::error::{Error, Result};
+use crate::integrate::rule::Rule;
+use crate::lut::{Dfg, Lut};
+use crate::model::Microfacet;
+use crate::precision::Precision;
+use crate::request::{Accuracy, DEFAULT_SIZE, Request};
+use serde::{Deserialize, de::DeserializeOwned};
+use std::fmt;
+use std::path::Path;
+
+/// What to bake; everything has a default.
+#[derive(Clone, Debug, Default, clap::Args, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct TableArgs {
+    /// Family of tables: dfg, the split sum's E(F0) = F0*A + B (Karis 2013) [default: dfg]
+    #[arg(long, value_name = "NAME")]
+    pub lut: Option<String>,
+    /// Distribution of normals: ggx (Walter et al. 2007) [default: ggx]
+    #[arg(long, value_name = "NAME")]
+    pub model: Option<String>,
+    /// Masking: height-correlated or separable (Smith; Heitz 2014), schlick-smith (k = alpha/2; Karis 2013)
+    /// [default: height-correlated]
+    #[arg(long, value_name = "NAME")]
+    pub masking: Option<String>,
+    /// Channels: ab (scale, bias), be (bias, E = A + B: the multiple-scattering packing), e (E alone) [default: ab]
+    #[arg(long, value_name = "NAME")]
+    pub channels: Option<String>,
+    /// Columns x rows, each 1 to 16384; one number for a square [default: 128]
+    #[arg(long, value_name = "N|WxH")]
+    pub size: Option<Size>,
+    /// What runs along a row, for example nov,sqrt,edges: PARAMETER nov, roughness (perceptual) or alpha; then, where
+    /// they differ from linear,centres: MAPPING linear, sqrt (t = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES
+    /// centres, edges (i/(N-1)) or offset=X ((i+X)/N); flip; min=X [default: nov]
+    #[arg(long, value_name = "AXIS")]
+    pub x: Option<String>,
+    /// What runs from row to row, in the same words [default: roughness, or nov where x is a roughness]
+    #[arg(long, value_name = "AXIS")]
+    pub y: Option<String>,
+    /// How values are stored: f16 or f32 (.exr), unorm16 or unorm8 (.png) [default: the first for the format]
+    #[arg(long, value_name = "NAME")]
+    pub precision: Option<String>,
+    /// Largest absolute error of an integral, 1e-13 to 0.1 [default: 1.5e-5 for f16, 1e-6 for f32 and unorm16]
+    #[arg(long, value_name = "ERROR", conflicts_with = "rule")]
+    pub tolerance: Option<f64>,
+    /// Quadrature rule by name, instead of a tolerance: h56 to h6144 (CPU and Vulkan), l128 to l6144, reference (CPU)
+    #[arg(long, value_name = "NAME")]
+    pub rule: Option<String>,
+    /// File format: exr or png [default: by the extension of the output]
+    #[arg(long, value_name = "NAME")]
+    pub format: Option<String>,
+    /// Where to write; - is standard output [default: out/dfg.exr]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<String>,
+}
+
+/// A table's size as users write it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+pub enum Size {
+    /// One number for a square.
+    Square(i64),
+    /// Text, with columns and rows.
+    Text(String),
+}
+
+/// Where a table goes when nothing is said.
+pub const DEFAULT_OUTPUT: &str = "out/dfg.exr";
+
+/// A table to bake and where it goes.
+#[derive(Clone, Debug)]
+pub struct Job {
+    pub request: Request,
+    pub format: Format,
+    /// A path as the user wrote it, or `-`.
+    pub output: String,
+}
+
+impl TableArgs {
+    /// The checked job.
+    pub fn job(&self) -> Result<Job> {
+        let output = self.output.clone().unwrap_or_else(|| DEFAULT_OUTPUT.into());
+        let format = match &self.format {
+            Some(name) => Format::of_extension(name)?,
+            None if output == "-" => Format::Exr,
+            None => {
+                let extension = Path::new(&output).extension().unwrap_or_default();
+                Format::of_extension(&extension.to_string_lossy())?
+            }
+        };
+        let wanted = self.precision.as_deref().map(|name| choice("precision", name)).transpose()?;
+        let precision = format.precision(wanted)?;
+        let (x, y) = self.axes()?;
+        Ok(Job { request: Request::new(self.lut()?, x, y, self.accuracy(precision)?, precision)?, format, output })
+    }
+
+    fn lut(&self) -> Result<Lut> {
+        let name = self.lut.as_deref().unwrap_or("dfg");
+        if name != "dfg" {
+            return Err(Error::bad_input("lut", "dfg", format!("'{name}'"), "name one of these"));
+        }
+        let lobe = Microfacet {
+            ndf: choice("model", self.model.as_deref().unwrap_or("ggx"))?,
+            masking: choice("masking", self.masking.as_deref().unwrap_or("height-correlated"))?,
+        };
+        Ok(Lut::Dfg(Dfg { lobe, channels: choice("channels", self.channels.as_deref().unwrap_or("ab"))? }))
+    }
+
+    fn axes(&self) -> Result<(Axis, Axis)> {
+        let (columns, rows) = self.size.as_ref().map_or(Ok((DEFAULT_SIZE, DEFAULT_SIZE)), Size::parse)?;
+        let spec = |text: &Option<String>| text.as_deref().map(str::parse::<AxisSpec>).transpose();
+        let x = spec(&self.x)?;
+        let y = spec(&self.y)?;
+        let other = |axis: Option<AxisSpec>| match axis.map(|axis| axis.parameter) {
+            Some(Parameter::Roughness | Parameter::Alpha) => Parameter::Nov,
+            _ => Parameter::Roughness,
+        };
+        let x = x.unwrap_or_else(|| match y.map(|y| y.parameter) {
+            Some(Parameter::Nov) => AxisSpec::of(Parameter::Roughness),
+            _ => AxisSpec::of(Parameter::Nov),
+        });
+        let y = y.unwrap_or_else(|| AxisSpec::of(other(Some(x))));
+        Ok((Axis::new(x, columns)?, Axis::new(y, rows)?))
+    }
+
+    fn accuracy(&self, precision: Precision) -> Result<Accuracy> {
+        match (&self.rule, self.tolerance) {
+            (Some(_), Some(_)) => {
+                Err(Error::bad_input("rule", "a rule or a tolerance", "both", "leave one of them out"))
+            }
+            (Some(name), None) => Ok(Accuracy::Rule(Rule::named(name)?)),
+            (None, tolerance) => Ok(Accuracy::Tolerance(tolerance.unwrap_or_else(|| precision.default_tolerance()))),
+        }
+    }
+}
+
+impl Size {
+    fn parse(&self) -> Result<(usize, usize)> {
+        let text = self.to_string();
+        let (columns, rows) = text.split_once('x').unwrap_or((&text, &text));
+        match (columns.trim().parse(), rows.trim().parse()) {
+            (Ok(columns), Ok(rows)) => Ok((columns, rows)),
+            _ => Err(Error::bad_input(
+                "size",
+                "a number, or two with an x between",
+                format!("'{text}'"),
+                "as in 128 or 64x32",
+            )),
+        }
+    }
+}
+
+impl fmt::Display for Size {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Size::Square(n) => write!(f, "{n}"),
+            Size::Text(text) => f.write_str(text),
+        }
+    }
+}
+
+impl From<String> for Size {
+    fn from(text: String) -> Self {
+        Size::Text(text)
+    }
+}
+
+/// The variant of a choice that is spelled `text`.
+fn choice<T: DeserializeOwned>(what: &str, text: &str) -> Result<T> {
+    serde_json::from_value(text.into()).map_err(|error| {
+        // serde says: unknown variant `x`, expected one of `a`, `b`
+        let error = error.to_string();
+        let expected = error.split_once(", expected ").map_or(error.as_str(), |(_, expected)| expected);
+        Error::bad_input(what, expected.replace('`', ""), format!("'{text}'"), "name one of these")
+    })
+}

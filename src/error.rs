@@ -1,0 +1,126 @@
+//! Every failure: what was expected, what was got, and the cure; and the exit code that each kind of failure has.
+
+/// The result of everything that can fail here.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// A failure, by kind. The kinds are the exit codes.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The command line does not make sense.
+    #[error("{0}")]
+    Usage(Complaint),
+    /// A file could not be read or written.
+    #[error("cannot {action} {path}: {source}; {cure}")]
+    Io {
+        /// What was tried, as a verb.
+        action: &'static str,
+        /// The file, as the user named it.
+        path: String,
+        /// What the system said.
+        source: std::io::Error,
+        /// What to do.
+        cure: &'static str,
+    },
+    /// A value, a configuration or a file has wrong content.
+    #[error("{0}")]
+    BadInput(Complaint),
+    /// No Vulkan device that can do the work.
+    #[error("{0}")]
+    NoDevice(Complaint),
+    /// A Vulkan device failed at work that it had taken on.
+    #[error("the device failed: {0}")]
+    DeviceFailure(String),
+    /// A check found a result that is not what it has to be; nothing was written.
+    #[error("check failed: {0}")]
+    CheckFailed(String),
+    /// splitsum itself is at fault.
+    #[error("internal error, please report it: {0}")]
+    Internal(String),
+}
+
+/// What was expected, what was got, and what to do about it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what}: expected {expected}, got {got}; {cure}")]
+pub struct Complaint {
+    /// The flag, key or thing that is wrong.
+    pub what: String,
+    /// What would have been right.
+    pub expected: String,
+    /// What was there.
+    pub got: String,
+    /// What to do.
+    pub cure: String,
+}
+
+impl Complaint {
+    /// A complaint in its four parts.
+    pub fn new(
+        what: impl Into<String>,
+        expected: impl Into<String>,
+        got: impl Into<String>,
+        cure: impl Into<String>,
+    ) -> Self {
+        Complaint { what: what.into(), expected: expected.into(), got: got.into(), cure: cure.into() }
+    }
+}
+
+/// The exit codes of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum ExitCode {
+    /// All done.
+    Success = 0,
+    /// splitsum itself is at fault.
+    Internal = 1,
+    /// The command line does not make sense.
+    Usage = 2,
+    /// A file could not be read or written.
+    Io = 3,
+    /// A value or a configuration has wrong content.
+    BadInput = 4,
+    /// No usable Vulkan device, though one was asked for.
+    NoDevice = 5,
+    /// The device failed while it worked.
+    DeviceFailure = 6,
+    /// A check found a wrong result: the device disagrees with the CPU, or a table misses its bound.
+    CheckFailed = 7,
+}
+
+impl ExitCode {
+    /// All of them, with what each means: the text of `--help`.
+    pub const MEANINGS: [(ExitCode, &'static str); 8] = [
+        (ExitCode::Success, "all done"),
+        (ExitCode::Internal, "a fault of splitsum itself"),
+        (ExitCode::Usage, "the command line does not make sense"),
+        (ExitCode::Io, "a file could not be read or written"),
+        (ExitCode::BadInput, "a value or a configuration is wrong"),
+        (ExitCode::NoDevice, "no usable Vulkan device, though one was asked for"),
+        (ExitCode::DeviceFailure, "the Vulkan device failed at its work"),
+        (ExitCode::CheckFailed, "a check failed: device and CPU differ, or a table misses its bound"),
+    ];
+}
+
+impl Error {
+    /// Bad input, in four parts.
+    pub fn bad_input(
+        what: impl Into<String>,
+        expected: impl Into<String>,
+        got: impl Into<String>,
+        cure: impl Into<String>,
+    ) -> Self {
+        Error::BadInput(Complaint::new(what, expected, got, cure))
+    }
+
+    /// The exit code of this kind of failure.
+    pub fn exit_code(&self) -> ExitCode {
+        match self {
+            Error::Usage(_) => ExitCode::Usage,
+            Error::Io { .. } => ExitCode::Io,
+            Error::BadInput(_) => ExitCode::BadInput,
+            Error::NoDevice(_) => ExitCode::NoDevice,
+            Error::DeviceFailure(_) => ExitCode::DeviceFailure,
+            Error::CheckFailed(_) => ExitCode::CheckFailed,
+            Error::Internal(_) => ExitCode::Internal,
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! How a definition becomes a number: E(F0) = F0 A + B by quadrature, by three formulas.
+//!
+//! With n·v = μ, n·l = x and Schlick's F: E = ∫ f n·l dω = F0 A + B, A = ∫ f/F (1-w) n·l dω, B = ∫ f/F w n·l dω,
+//! w = (1 - v·h)^5. The limits on the edges: α = 0 is a mirror, whatever n·v.
+
+pub mod h_space;
+pub mod l_space;
+pub mod reference;
+pub mod rule;
+
+use crate::model::fresnel::schlick_weight;
+
+/// The two numbers of the split sum: E(F0) = F0 · `a` + `b` (Karis 2013).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ScaleBias {
+    /// A, the scale of F0.
+    pub a: f64,
+    /// B, the bias.
+    pub b: f64,
+}
+
+impl ScaleBias {
+    /// The directional albedo at F = 1: E = A + B.
+    pub fn e(self) -> f64 {
+        self.a + self.b
+    }
+
+    /// Adds `weight` times `part`.
+    pub fn add(&mut self, weight: f64, part: ScaleBias) {
+        self.a += weight * part.a;
+        self.b += weight * part.b;
+    }
+
+    /// The limit α → 0 at fixed n·v: a perfect mirror.
+    pub fn mirror(mu: f64) -> Self {
+        let b = schlick_weight(mu);
+        ScaleBias { a: 1.0 - b, b }
+    }
+}

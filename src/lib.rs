@@ -1,0 +1,145 @@
+//! splitsum bakes preintegrated BRDF tables, on Vulkan compute or on the CPU, and says how far each is from the truth.
+//!
+//! ```text
+//!   Request ──► Lut + Rule over a Grid ──► backend ──► certify ──► Table ──► encode ──► bytes
+//!   (request)   (lut, integrate, model)   (cpu, vulkan)                      (exr, png)    │
+//!                                                          report ◄────────────────────────┘
+//! ```
+//!
+//! A module uses only modules that stand above it in this list:
+//!
+//! - [`error`]: every failure, with what was expected, what was got and the cure; the exit codes
+//! - [`units`]: perceptual roughness, α, cosines, index of refraction, F0; each conversion once
+//! - [`axis`]: texel ↔ parameter, the only half-texel arithmetic
+//! - [`table`]: values over two axes, bilinear lookup, differences
+//! - [`half`]: correctly rounded binary16
+//! - [`precision`]: how a value is stored
+//! - [`quadrature`]: Gauss-Legendre, the slope map, double exponential
+//! - [`model`]: distributions of normals, masking, Fresnel, with their citations
+//! - [`integrate`]: how a lobe becomes (A, B): over half vectors, over light directions, by the reference; the rules
+//! - [`lut`]: what is baked, over which grid, into which channels
+//! - [`request`]: a checked job, which prints itself as the command that repeats it
+//! - [`backend`]: the CPU, the shaders, the Vulkan host
+//! - [`certify`]: a device's table against the CPU, any table against the reference
+//! - [`report`]: what is said of a bake
+//! - [`encode`]: a table as the bytes of a file
+//! - `cli`: flags and configurations to requests; files and terminals
+//!
+//! What is absent, and kept absent by `tests/tidy.rs`: models know no tables; backends know no files; encoders know only
+//! tables; nothing but `cli` touches the disk or prints; `unsafe` stands in `backend/vulkan` alone; every WGSL function
+//! has a Rust twin of the same name.
+//!
+//! ```
+//! use splitsum::{backend::Backend, lut::{Dfg, DfgChannels, Lut}, model::{Masking, Microfacet, Ndf}};
+//! use splitsum::{precision::Precision, request::Request};
+//!
+//! let lobe = Microfacet { ndf: Ndf::Ggx, masking: Masking::HeightCorrelated };
+//! let lut = Lut::Dfg(Dfg { lobe, channels: DfgChannels::Ab });
+//! let request = Request::with_default_axes(lut, (16, 16), Precision::F16)?;
+//! let baked = splitsum::bake(&request, &Backend::cpu(), &|_| ())?;
+//! assert!(baked.report.accuracy.measured.largest() <= baked.report.accuracy.bound);
+//! # Ok::<(), splitsum::error::Error>(())
+//! ```
+
+pub mod error;
+pub mod units;
+pub mod axis;
+pub mod table;
+pub mod half;
+pub mod precision;
+pub mod quadrature;
+pub mod model;
+pub mod integrate;
+pub mod lut;
+pub mod request;
+pub mod backend;
+pub mod certify;
+pub mod report;
+pub mod encode;
+pub mod cli;
+
+use backend::{Backend, Progress, cpu, vulkan};
+use error::{Complaint, Error, Result};
+use integrate::rule::{F32_ARITHMETIC, Method, Rule};
+use lut::Lut;
+use report::{Computed, Report, Seconds};
+use request::{Accuracy, Request};
+use std::time::Instant;
+use table::{Provenance, Table};
+
+/// A baked table and what is to be said of it.
+#[derive(Clone, Debug)]
+pub struct Baked {
+    /// The table, in f64 whoever computed it.
+    pub table: Table,
+    /// What is to be said of it.
+    pub report: Report,
+}
+
+/// Bakes a table. It has passed its checks when it comes back: see [`certify`].
+pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<Baked> {
+    let Lut::Dfg(dfg) = request.lut;
+    let grid = request.grid()?;
+    let (gpu, reason) = backend.device_unless(device_rule(request).err())?;
+    let rule = match request.accuracy {
+        Accuracy::Rule(rule) => rule,
+        Accuracy::Tolerance(tolerance) => {
+            let arithmetic = if gpu.is_some() { F32_ARITHMETIC } else { 0.0 };
+            let rule = Rule::for_tolerance(tolerance, arithmetic);
+            rule.ok_or_else(|| Error::Internal(format!("no rule for the tolerance {tolerance}")))?
+        }
+    };
+    let start = Instant::now();
+    let integrals = match (gpu, rule.method) {
+        (Some(gpu), Method::HSpace(nodes)) => vulkan::bake::bake(gpu, dfg.lobe, &grid, &nodes, progress)?,
+        _ => cpu::bake(dfg.lobe, &grid, &rule, progress),
+    };
+    let integrate = start.elapsed().as_secs_f64();
+    let start = Instant::now();
+    let (computed, arithmetic) = match gpu {
+        None => (Computed::Cpu { reason }, 1e-15),
+        Some(gpu) => {
+            let cross_check = certify::cross_check(dfg.lobe, &grid, &rule, &integrals)?;
+            (Computed::Vulkan { device: gpu.info().clone(), cross_check }, F32_ARITHMETIC)
+        }
+    };
+    let measured = certify::measure(dfg.lobe, &grid, &rule, arithmetic, &integrals)?;
+    let seconds = Seconds { integrate, check: start.elapsed().as_secs_f64() };
+    let report = Report {
+        command: request.to_string(),
+        size: [request.x.size, request.y.size],
+        computed,
+        accuracy: report::Accuracy::new(request, &rule, arithmetic, measured),
+        seconds,
+    };
+    let provenance = Provenance {
+        rule: rule.name,
+        error_bound: report.accuracy.bound,
+        measured_error: (measured.largest(), measured.texels),
+        computed_by: report.computed.to_string(),
+        command: report.command.clone(),
+        ..request.lut.provenance()
+    };
+    let table = grid.table(&request.lut, (request.x, request.y), &integrals, provenance);
+    Ok(Baked { table, report })
+}
+
+/// The rule by which a device can do the job, or what stands in the way.
+fn device_rule(request: &Request) -> std::result::Result<Rule, Complaint> {
+    let found = match request.accuracy {
+        Accuracy::Rule(rule) => Some(rule),
+        Accuracy::Tolerance(tolerance) => Rule::for_tolerance(tolerance, F32_ARITHMETIC),
+    };
+    match found {
+        Some(rule) if rule.runs_on_device() => Ok(rule),
+        Some(rule) if matches!(request.accuracy, Accuracy::Rule(_)) => {
+            Err(Complaint::new("rule", "one that a device can run, beginning with h", rule.name, "use --backend cpu"))
+        }
+        _ => Err(Complaint::new(
+            "tolerance",
+            "at least 1e-6, which is what f32 on a device can keep",
+            "a smaller one",
+            "use --backend cpu",
+        )),
+    }
+}

@@ -1,0 +1,26 @@
+//! GGX, the distribution of Trowbridge and Reitz.
+//!
+//! Walter, Marschner, Li and Torrance, "Microfacet Models for Refraction through Rough Surfaces", 2007;
+//! Heitz, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", 2014.
+
+use std::f64::consts::{FRAC_1_PI, PI};
+
+/// D(n·h) as a function of t = tan²(θ_h): α²/π ((1+t)/(α²+t))² (Walter 2007, equation 33).
+///
+/// No difference of near-equal numbers is taken, unlike in α²/(π((n·h)²(α²-1)+1)²), which loses every digit as α → 0.
+pub fn ggx_d(t: f64, alpha: f64) -> f64 {
+    let a2 = alpha * alpha;
+    let ratio = (1.0 + t) / (a2 + t);
+    a2 / PI * ratio * ratio
+}
+
+/// α² P22 at the squared scaled slope y² = (tan(θ_h)/α)²: 1 / (π (1+y²)²) (Heitz 2014, equation 84).
+pub fn ggx_slope_density(y2: f64) -> f64 {
+    let r = 1.0 / (1.0 + y2);
+    FRAC_1_PI * r * r
+}
+
+/// c (1 + 2Λ(c)) = √(α² + (1-α²) c²), with Smith's Λ of GGX (Heitz 2014, equation 72).
+pub fn ggx_smith(c: f64, alpha: f64) -> f64 {
+    (alpha * alpha + (1.0 - alpha) * (1.0 + alpha) * (c * c)).sqrt()
+}

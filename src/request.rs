@@ -1,0 +1,95 @@
+//! A checked job: which table, over which axes, how exact, stored how. It prints itself as the command that repeats it.
+
+use crate::axis::{Axis, AxisSpec, Parameter};
+use crate::error::{Error, Result};
+use crate::integrate::rule::Rule;
+use crate::lut::{Grid, Lut};
+use crate::precision::Precision;
+use crate::units::word;
+use std::fmt;
+
+/// How exact the integrals have to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Accuracy {
+    /// Within this absolute error, by whatever rule is the cheapest.
+    Tolerance(f64),
+    /// By this rule.
+    Rule(Rule),
+}
+
+/// A checked job.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Request {
+    /// What is baked.
+    pub lut: Lut,
+    /// The axis along a row.
+    pub x: Axis,
+    /// The axis from row to row.
+    pub y: Axis,
+    /// How exact.
+    pub accuracy: Accuracy,
+    /// How stored.
+    pub precision: Precision,
+}
+
+/// Texels along each axis when no size is given.
+pub const DEFAULT_SIZE: usize = 128;
+
+impl Request {
+    /// Checks that the parts fit together.
+    pub fn new(lut: Lut, x: Axis, y: Axis, accuracy: Accuracy, precision: Precision) -> Result<Self> {
+        let request = Request { lut, x, y, accuracy, precision };
+        request.grid()?;
+        match accuracy {
+            Accuracy::Tolerance(tolerance) => {
+                if Rule::for_tolerance(tolerance, 0.0).is_none() || tolerance > 0.1 {
+                    return Err(Error::bad_input(
+                        "tolerance",
+                        "an absolute error from 1e-13 to 0.1",
+                        tolerance.to_string(),
+                        "give one in that range",
+                    ));
+                }
+            }
+            Accuracy::Rule(rule) => {
+                let Lut::Dfg(dfg) = lut;
+                if !rule.applies_to(dfg.lobe) {
+                    return Err(Error::bad_input(
+                        "rule",
+                        "one that can integrate the model",
+                        rule.name,
+                        "choose a rule whose name begins with h",
+                    ));
+                }
+            }
+        }
+        Ok(request)
+    }
+
+    /// The table that every engine needs: x = n·v, y = perceptual roughness, texel centres.
+    pub fn with_default_axes(lut: Lut, size: (usize, usize), precision: Precision) -> Result<Self> {
+        let x = Axis::new(AxisSpec::of(Parameter::Nov), size.0)?;
+        let y = Axis::new(AxisSpec::of(Parameter::Roughness), size.1)?;
+        Request::new(lut, x, y, Accuracy::Tolerance(precision.default_tolerance()), precision)
+    }
+
+    /// The parameters of the texels.
+    pub fn grid(&self) -> Result<Grid> {
+        Grid::new(&self.x, &self.y)
+    }
+}
+
+impl fmt::Display for Request {
+    /// The command that repeats the job.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Lut::Dfg(dfg) = self.lut;
+        write!(f, "splitsum bake --lut {} --model {}", self.lut.name(), word(dfg.lobe.ndf))?;
+        write!(f, " --masking {} --channels {}", word(dfg.lobe.masking), word(dfg.channels))?;
+        write!(f, " --size {}x{} --x {} --y {}", self.x.size, self.y.size, self.x.spec, self.y.spec)?;
+        write!(f, " --precision {}", word(self.precision))?;
+        match self.accuracy {
+            Accuracy::Tolerance(tolerance) => write!(f, " --tolerance {tolerance:e}"),
+            Accuracy::Rule(rule) => write!(f, " --rule {}", rule.name),
+        }
+    }
+}

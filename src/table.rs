@@ -1,0 +1,106 @@
+//! A table of numbers over two axes: values, channels, lookup as a renderer does it, and how far two tables are apart.
+
+use crate::axis::Axis;
+use serde::Serialize;
+
+/// A channel of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Channel {
+    /// Its short name: `A`, `B`, `E`.
+    pub name: &'static str,
+    /// What it holds.
+    pub meaning: &'static str,
+}
+
+/// Where a table's numbers come from and what they are worth, in words for the metadata.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Provenance {
+    /// The family of tables.
+    pub table: &'static str,
+    /// What it is for.
+    pub equation: &'static str,
+    /// The distribution of normals.
+    pub model: String,
+    /// The masking term.
+    pub masking: String,
+    /// Fresnel.
+    pub fresnel: &'static str,
+    /// What roughness means.
+    pub roughness: &'static str,
+    /// The quadrature rule.
+    pub rule: &'static str,
+    /// The largest absolute error of an integral, before it is stored.
+    pub error_bound: f64,
+    /// The largest error found against the double-exponential reference, and over how many texels.
+    pub measured_error: (f64, usize),
+    /// Backend, arithmetic and device.
+    pub computed_by: String,
+    /// The command that repeats the bake.
+    pub command: String,
+}
+
+/// Values over two axes, row by row, the channels of a texel side by side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// Along a row.
+    pub x: Axis,
+    /// From row to row.
+    pub y: Axis,
+    /// What each value of a texel is.
+    pub channels: Vec<Channel>,
+    /// The values, `channels.len()` for each texel.
+    pub values: Vec<f64>,
+    /// Where they come from.
+    pub provenance: Provenance,
+}
+
+/// How far two sets of values are apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Difference {
+    /// The largest absolute difference.
+    pub max: f64,
+    /// The root of the mean squared difference.
+    pub rms: f64,
+    /// How many values were compared.
+    pub count: usize,
+}
+
+impl Table {
+    /// The values of the texel in column `i` and row `j`.
+    pub fn texel(&self, i: usize, j: usize) -> &[f64] {
+        let n = self.channels.len();
+        &self.values[(j * self.x.size + i) * n..][..n]
+    }
+
+    /// What a renderer reads at the parameters (`px`, `py`): bilinear between texels, clamped at the border.
+    pub fn bilinear(&self, px: f64, py: f64) -> Vec<f64> {
+        let split = |axis: &Axis, p: f64| {
+            let t = axis.texel(p).clamp(0.0, axis.size as f64 - 1.0);
+            let i = t.floor() as usize;
+            (i, (i + 1).min(axis.size - 1), t - t.floor())
+        };
+        let ((i0, i1, u), (j0, j1, v)) = (split(&self.x, px), split(&self.y, py));
+        let at = |i, j, c: usize| self.texel(i, j)[c];
+        (0..self.channels.len())
+            .map(|c| {
+                let low = at(i0, j0, c) * (1.0 - u) + at(i1, j0, c) * u;
+                let high = at(i0, j1, c) * (1.0 - u) + at(i1, j1, c) * u;
+                low * (1.0 - v) + high * v
+            })
+            .collect()
+    }
+}
+
+impl Difference {
+    /// Of two sequences of the same length; NaN anywhere makes it NaN.
+    pub fn between(pairs: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        let (mut max, mut squares, mut count) = (0.0f64, 0.0, 0);
+        for (a, b) in pairs {
+            let d = (a - b).abs();
+            max = if d <= max { max } else { d };
+            squares += d * d;
+            count += 1;
+        }
+        Difference { max, rms: (squares / f64::from(count.max(1))).sqrt(), count: count as usize }
+    }
+}

@@ -1,0 +1,77 @@
+//! The quantities of the domain, each with its range checked once and each conversion written once.
+
+use crate::error::{Error, Result};
+
+/// Perceptual roughness r in [0, 1]: what artists and files call roughness. α = r² (Burley 2012).
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct PerceptualRoughness(f64);
+
+/// The width α of a distribution of normals, in [0, 1].
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Alpha(f64);
+
+/// The cosine of an angle to the normal, in [0, 1]; n·v is written μ.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Cosine(f64);
+
+/// A real index of refraction relative to air, at least 1.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Ior(f64);
+
+/// Reflectance at normal incidence F0, in [0, 1].
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct F0(f64);
+
+/// α below this and above 0 is refused: α² must stay a normal number in f32. It is r = 5e-10.
+pub const SMALLEST_ALPHA: f64 = 2.5e-19;
+
+macro_rules! unit {
+    ($name:ident, $what:literal, $expected:literal, $valid:expr) => {
+        impl $name {
+            /// Checks the range.
+            pub fn new(value: f64) -> Result<Self> {
+                let valid: fn(f64) -> bool = $valid;
+                if valid(value) {
+                    Ok($name(value))
+                } else {
+                    Err(Error::bad_input($what, $expected, format!("{value}"), "give a value in that range"))
+                }
+            }
+
+            /// The number.
+            pub fn get(self) -> f64 {
+                self.0
+            }
+        }
+    };
+}
+
+unit!(PerceptualRoughness, "perceptual roughness", "0, or 5e-10 to 1", |v| v == 0.0
+    || (v * v >= SMALLEST_ALPHA && v <= 1.0));
+unit!(Alpha, "alpha", "0, or 2.5e-19 to 1", |v| v == 0.0 || (SMALLEST_ALPHA..=1.0).contains(&v));
+unit!(Cosine, "cosine", "0 to 1", |v| (0.0..=1.0).contains(&v));
+unit!(Ior, "index of refraction", "a finite number of at least 1", |v| v >= 1.0 && v.is_finite());
+unit!(F0, "F0", "0 to 1", |v| (0.0..=1.0).contains(&v));
+
+impl From<PerceptualRoughness> for Alpha {
+    /// α = r² (Burley 2012, "Physically Based Shading at Disney").
+    fn from(r: PerceptualRoughness) -> Self {
+        Alpha(r.0 * r.0)
+    }
+}
+
+impl From<Ior> for F0 {
+    /// F0 = ((1-n)/(1+n))²: Fresnel's reflectance at normal incidence from air.
+    fn from(n: Ior) -> Self {
+        let r = (1.0 - n.0) / (1.0 + n.0);
+        F0(r * r)
+    }
+}
+
+/// A choice as the command line, the configuration and the metadata spell it.
+pub fn word(choice: impl serde::Serialize) -> String {
+    match serde_json::to_value(choice) {
+        Ok(serde_json::Value::String(text)) => text,
+        _ => String::new(),
+    }
+}
