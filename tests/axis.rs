@@ -1,0 +1,85 @@
+//! Axes: the parameter of a texel, its inverse, and the conventions that other tools use.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use splitsum::axis::{Axis, AxisSpec};
+use splitsum::lut::Grid;
+
+fn axis(words: &str, size: usize) -> Axis {
+    Axis::new(words.parse().unwrap(), size).unwrap()
+}
+
+#[test]
+fn texel_is_the_inverse_of_value() {
+    for mapping in ["linear", "sqrt", "sqrt-complement"] {
+        for nodes in ["centres", "edges", "offset=0.25"] {
+            for flip in ["", ",flip"] {
+                let axis = axis(&format!("nov,{mapping},{nodes}{flip}"), 37);
+                for i in 0..37 {
+                    // The square root of 1 - t² loses half the digits at t = 0; every other node is exact to rounding.
+                    let slack = if mapping == "sqrt-complement" { 37.0 * 1.5e-8 } else { 1e-13 };
+                    let back = axis.texel(axis.value(i));
+                    assert!((back - i as f64).abs() < slack, "{} texel {i} came back as {back}", axis.spec);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn ends_are_where_the_nodes_say() {
+    assert_eq!((axis("nov,edges", 5).value(0), axis("nov,edges", 5).value(4)), (0.0, 1.0));
+    assert_eq!((axis("nov", 4).value(0), axis("nov", 4).value(3)), (0.125, 0.875));
+    assert_eq!((axis("nov,flip", 4).value(0), axis("nov,flip", 4).value(3)), (0.875, 0.125));
+    assert_eq!(axis("nov,sqrt", 4).value(0), 0.125 * 0.125);
+    assert_eq!(axis("nov,sqrt-complement,edges", 3).values(), [1.0, 0.75, 0.0]);
+    assert_eq!(axis("nov,edges", 1).value(0), 0.0);
+    assert_eq!(axis("nov", 1).value(0), 0.5);
+}
+
+#[test]
+fn known_conventions_can_be_said() {
+    // Filament stores roughness flipped and one texel off: row y holds (h - y + 0.5)/h, clamped to 1.
+    let filament = axis("roughness,offset=1.5,flip", 64);
+    for y in 0..64 {
+        assert_eq!(filament.value(y), ((64.0 - y as f64 + 0.5) / 64.0).min(1.0));
+    }
+    // panda3d-simplepbr: i/N. Cycles: i/(N-1), at least 1e-4. LTC: sqrt(1 - n.v) = i/63.
+    assert_eq!(axis("roughness,offset=0", 512).value(3), 3.0 / 512.0);
+    assert_eq!(axis("nov,edges,min=1e-4", 32).value(0), 1e-4);
+    assert_eq!(axis("nov,sqrt-complement,edges", 64).value(63), 0.0);
+}
+
+#[test]
+fn words_read_back_to_the_same_axis() {
+    for words in ["nov,linear,centres", "roughness,sqrt,edges,flip", "alpha,sqrt-complement,offset=-0.25,min=0.001"] {
+        let spec: AxisSpec = words.parse().unwrap();
+        assert_eq!(spec.to_string(), words);
+    }
+    assert_eq!("nov".parse::<AxisSpec>().unwrap().to_string(), "nov,linear,centres");
+}
+
+#[test]
+fn wrong_words_sizes_and_values_are_refused() {
+    for words in
+        ["", "mu", "nov,cubic", "nov,offset", "nov,offset=x", "nov,offset=nan", "nov,offset=3", "nov,min=2", "nov,,"]
+    {
+        assert!(words.parse::<AxisSpec>().is_err(), "{words:?} was taken");
+    }
+    for size in [0, 16385, usize::MAX] {
+        assert!(Axis::new("nov".parse().unwrap(), size).is_err());
+    }
+    // Roughness so small that alpha² would not be a normal f32.
+    assert!(Axis::new("roughness,offset=1e-9".parse().unwrap(), 16).is_err());
+    assert!(Axis::new("roughness,sqrt".parse().unwrap(), 16384).is_ok());
+}
+
+#[test]
+fn one_axis_is_the_view_and_the_other_a_roughness() {
+    let (view, rough, alpha) = (axis("nov", 3), axis("roughness", 2), axis("alpha", 2));
+    assert!(Grid::new(&view, &view).is_err() && Grid::new(&rough, &alpha).is_err());
+    let grid = Grid::new(&rough, &view).unwrap();
+    assert_eq!((grid.len(), grid.mus.len()), (6, 3));
+    // Perceptual roughness is squared, alpha is not.
+    assert_eq!(grid.alphas, [0.0625, 0.5625]);
+    assert_eq!(Grid::new(&view, &alpha).unwrap().alphas, [0.25, 0.75]);
+}

@@ -1,0 +1,59 @@
+//! What several test binaries need: lobes, published figures, points of the domain.
+#![allow(dead_code, reason = "each test binary uses a part of this")]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use splitsum::model::{Masking, Microfacet, Ndf};
+
+pub const MASKINGS: [Masking; 3] = [Masking::HeightCorrelated, Masking::Separable, Masking::SchlickSmith];
+
+pub fn ggx(masking: Masking) -> Microfacet {
+    Microfacet { ndf: Ndf::Ggx, masking }
+}
+
+pub fn masking_named(name: &str) -> Masking {
+    serde_json::from_value(name.into()).unwrap()
+}
+
+/// The rows of a file of figures, without comments and the line of names.
+pub fn figures(text: &str) -> Vec<Vec<&str>> {
+    let lines = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+    lines.map(|line| line.split(',').collect()).collect()
+}
+
+pub fn number(text: &str) -> f64 {
+    text.parse().unwrap()
+}
+
+/// Numbers in [0, 1), the same in every run: Knuth's linear congruential generator, its upper 53 bits.
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// `count` points (n·v, α), a third of them spread evenly, the others crowded towards the edges down to 1e-8, then the
+/// edges themselves: n·v in {0, 1e-6, …, 1} by perceptual roughness in {1e-3, …, 1}.
+pub fn domain(count: usize) -> Vec<(f64, f64)> {
+    let mut random = Random(20261122);
+    let mut points: Vec<(f64, f64)> = (0..count)
+        .map(|i| {
+            let (u, r) = (random.next(), random.next());
+            let mu = match i % 3 {
+                0 => u,
+                1 => 10f64.powf(-8.0 * u),
+                _ => 1.0 - 10f64.powf(-8.0 * u),
+            };
+            let r = if i % 2 == 0 { r.max(1e-3) } else { 10f64.powf(-4.0 * r) };
+            (mu, r * r)
+        })
+        .collect();
+    for mu in [0.0, 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.1, 0.5, 0.9, 0.99, 1.0 - 1e-6, 1.0] {
+        for r in [1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8, 0.99, 1.0] {
+            points.push((mu, r * r));
+        }
+    }
+    points
+}

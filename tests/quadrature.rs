@@ -1,0 +1,156 @@
+//! Quadrature: theorems about the rules, and the bounds that the rules claim.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use common::{MASKINGS, domain, ggx};
+use rayon::prelude::*;
+use splitsum::integrate::ScaleBias;
+use splitsum::integrate::rule::{Method, REFERENCE, RULES, Rule};
+use splitsum::model::Microfacet;
+use splitsum::quadrature::double_exponential::{half_line, tanh_sinh};
+use splitsum::quadrature::gauss_legendre::{gauss_legendre, half_gauss};
+use splitsum::quadrature::slope_map::{Power, slope_at, slope_interval};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+#[test]
+fn gauss_legendre_is_exact_to_degree_2n_minus_1() {
+    for n in [1, 2, 3, 8, 16, 48, 160] {
+        let nodes = gauss_legendre(n);
+        assert_eq!(nodes.len(), n);
+        for degree in [0, 1, n, 2 * n - 1] {
+            let sum: f64 = nodes.iter().map(|node| node.weight * node.at.powi(degree as i32)).sum();
+            let exact = 1.0 / (degree as f64 + 1.0);
+            // n terms of at most 1, each rounded.
+            assert!((sum - exact).abs() < 1e-15 * n.max(4) as f64, "n = {n}, degree {degree}: {sum} for {exact}");
+        }
+    }
+}
+
+#[test]
+fn gauss_legendre_has_the_published_nodes() {
+    // Abramowitz and Stegun, table 25.4, n = 5, on [-1, 1].
+    let published =
+        [(0.0, 0.568888888888889), (0.538469310105683, 0.478628670499366), (0.906179845938664, 0.236926885056189)];
+    for (node, (x, weight)) in gauss_legendre(5)[2..].iter().zip(published) {
+        assert!((2.0 * node.at - 1.0 - x).abs() < 1e-15 && (2.0 * node.weight - weight).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn half_gauss_is_worth_twice_its_nodes_on_even_functions() {
+    for degree in [0, 2, 8, 14] {
+        let sum: f64 = half_gauss(4).iter().map(|node| node.weight * node.at.powi(degree)).sum();
+        assert!((sum - 1.0 / (f64::from(degree) + 1.0)).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn the_slope_map_is_the_hyperbolic_sine_it_says() {
+    for (power, p) in [(Power::Two, 2.0), (Power::Four, 4.0)] {
+        for (y0, y1) in [(0.0, 1.0), (0.3, 1e6), (1e9, 1e12), (-40.0, 7.0)] {
+            let interval = slope_interval(y0, y1, power);
+            let at = |u| slope_at(u, interval, power);
+            let scale = 1.0 + f64::abs(y1);
+            assert!((at(0.0).y - y0).abs() < 1e-12 * (1.0 + f64::abs(y0)) && (at(1.0).y - y1).abs() < 1e-12 * scale);
+            for u in [0.1, 0.5, 0.9] {
+                let angle = 2.0 * p * libm::atanh(interval.w0 + interval.width * u);
+                // atanh near 1 turns a rounding of w into a large one; the map itself has 1 - w exactly.
+                let slack = 1e-14 / (1.0 - interval.w0 - interval.width * u);
+                assert!(
+                    (at(u).y - libm::sinh(angle)).abs() <= slack * (1.0 + at(u).y.abs()),
+                    "{power:?} {y0} {y1} {u}"
+                );
+            }
+            // dy is the derivative: central differences over 2e-6, whose error is below 1e-6 of it at these u.
+            for u in [0.1, 0.5, 0.9] {
+                let difference = (at(u + 1e-6).y - at(u - 1e-6).y) / 2e-6;
+                assert!((at(u).dy / difference - 1.0).abs() < 1e-6, "{power:?} {y0} {y1} {u}");
+            }
+        }
+    }
+}
+
+#[test]
+fn double_exponential_integrates_singular_endpoints() {
+    let nodes = tanh_sinh(160);
+    let integral = |f: &dyn Fn(f64, f64) -> f64| -> f64 {
+        nodes.iter().map(|node| node.weight * f(node.from_start, node.to_end)).sum()
+    };
+    assert!((integral(&|_, _| 1.0) - 1.0).abs() < 1e-14);
+    assert!((integral(&|x, _| x.ln()) + 1.0).abs() < 1e-14);
+    // The cut at a distance of 1e-21 leaves out its square root.
+    assert!((integral(&|x, y| 1.0 / (x * y).sqrt()) - PI).abs() < 3e-10);
+    let line: f64 = half_line(150, 4.085).iter().map(|&(z, weight)| weight / (1.0 + z * z)).sum();
+    assert!((line - FRAC_PI_2).abs() < 1e-14);
+}
+
+/// The largest error of A and of B by `rule` over `points`; NaN counts as infinite.
+fn worst(lobe: Microfacet, rule: &Rule, points: &[(f64, f64)], truth: &[ScaleBias]) -> (f64, (f64, f64)) {
+    let integrator = rule.integrator();
+    let error = |(&(mu, alpha), truth): (&(f64, f64), &ScaleBias)| {
+        let value = integrator.integrate(lobe, mu, alpha);
+        let error = (value.a - truth.a).abs().max((value.b - truth.b).abs());
+        let sound = value.a.is_finite() && value.b.is_finite();
+        (if sound { error } else { f64::INFINITY }, (mu, alpha))
+    };
+    let errors = points.par_iter().zip(truth).map(error);
+    errors.reduce(|| (0.0, (0.0, 0.0)), |a, b| if a.0 >= b.0 { a } else { b })
+}
+
+#[test]
+fn every_rule_keeps_its_bound_over_the_whole_domain() {
+    let points = domain(1500);
+    for lobe in MASKINGS.map(ggx) {
+        let reference = REFERENCE.integrator();
+        let truth: Vec<_> = points.par_iter().map(|&(mu, alpha)| reference.integrate(lobe, mu, alpha)).collect();
+        for rule in RULES.iter().filter(|rule| rule.applies_to(lobe)) {
+            let (error, at) = worst(lobe, rule, &points, &truth);
+            assert!(error <= rule.bound, "{} of {lobe:?}: {error:e} at {at:?}, {:e} promised", rule.name, rule.bound);
+        }
+        let finer = REFERENCE.yardstick();
+        let few = &points[..200];
+        let (error, at) = worst(lobe, &finer, few, &truth);
+        assert!(error <= REFERENCE.bound, "the reference moves by {error:e} at {at:?} when refined");
+    }
+}
+
+#[test]
+fn bounds_are_not_idle() {
+    // A bound a hundred times too large would hide a broken rule: each rule errs by at least a twentieth of its own.
+    let points = domain(1500);
+    let lobe = ggx(MASKINGS[0]);
+    let reference = REFERENCE.integrator();
+    let truth: Vec<_> = points.par_iter().map(|&(mu, alpha)| reference.integrate(lobe, mu, alpha)).collect();
+    for rule in RULES.iter().filter(|rule| **rule != REFERENCE) {
+        let (error, _) = worst(lobe, rule, &points, &truth);
+        assert!(error >= rule.bound / 20.0, "{} errs by {error:e} only, {:e} promised", rule.name, rule.bound);
+    }
+}
+
+#[test]
+fn two_formulas_agree_over_a_dense_grid() {
+    // Half vectors and light directions share no mechanism; each may err by its bound.
+    let (h, l) = (Rule::named("h6144").unwrap(), Rule::named("l6144").unwrap());
+    let grid: Vec<(f64, f64)> = (0..64 * 64)
+        .map(|i| (f64::from(i % 64) / 63.0, (f64::from(i / 64) + 1.0) / 64.0))
+        .map(|(mu, r)| (mu, r * r))
+        .collect();
+    for lobe in MASKINGS.map(ggx) {
+        let integrator = h.integrator();
+        let truth: Vec<_> = grid.par_iter().map(|&(mu, alpha)| integrator.integrate(lobe, mu, alpha)).collect();
+        let (error, at) = worst(lobe, &l, &grid, &truth);
+        assert!(error <= h.bound + l.bound, "{lobe:?}: {error:e} at {at:?}");
+    }
+}
+
+#[test]
+fn rules_stand_in_order_of_cost_and_a_tolerance_takes_the_cheapest() {
+    let cost = |rule: &Rule| rule.evaluations().unwrap_or(usize::MAX);
+    let by_tolerance: Vec<_> = RULES.iter().filter(|rule| !matches!(rule.method, Method::LSpace(_))).collect();
+    assert!(by_tolerance.windows(2).all(|pair| cost(pair[0]) < cost(pair[1]) && pair[0].bound > pair[1].bound));
+    for rule in by_tolerance {
+        assert_eq!(Rule::for_tolerance(rule.bound, 0.0).unwrap().name, rule.name);
+    }
+    assert!(Rule::for_tolerance(1e-14, 0.0).is_none() && Rule::for_tolerance(f64::NAN, 0.0).is_none());
+}
