@@ -13,20 +13,6 @@ struct Job {
 
 var<immediate> job: Job;
 
-// The limit alpha -> 0 at fixed n.v: a perfect mirror.
-fn mirror(mu: f32) -> vec2<f32> {
-    let b = schlick_weight(mu);
-    return vec2<f32>(1.0 - b, b);
-}
-
-// (A, B) at n.v = mu and alpha, both in [0, 1].
-fn integrate(mu: f32, alpha: f32, rule: Rule) -> vec2<f32> {
-    if alpha == 0.0 {
-        return mirror(mu);
-    }
-    return h_space(mu, alpha, rule);
-}
-
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let texel = job.first + id.x;

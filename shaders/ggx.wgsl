@@ -8,5 +8,6 @@ fn ggx_slope_density(y2: f32) -> f32 {
 
 // c (1 + 2 Lambda(c)) (Heitz 2014, equation 72).
 fn ggx_smith(c: f32, alpha: f32) -> f32 {
-    return sqrt(alpha * alpha + (1.0 - alpha) * (1.0 + alpha) * (c * c));
+    let q = c * (1.0 / alpha);
+    return alpha * sqrt(1.0 + (1.0 - alpha) * (1.0 + alpha) * (q * q));
 }

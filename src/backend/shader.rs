@@ -7,7 +7,7 @@ use crate::quadrature::slope_map::Power;
 use naga::back::spv;
 use naga::valid::{Capabilities, ShaderStages, SubgroupOperationSet, ValidationFlags, Validator};
 
-/// The WGSL modules, each the twin of the Rust module of the same name.
+/// The WGSL modules.
 pub mod wgsl {
     /// Twin of `model::fresnel`.
     pub const FRESNEL: &str = include_str!("../../shaders/fresnel.wgsl");
@@ -19,6 +19,8 @@ pub mod wgsl {
     pub const SLOPE_MAP: &str = include_str!("../../shaders/slope_map.wgsl");
     /// Twin of `integrate::h_space`.
     pub const H_SPACE: &str = include_str!("../../shaders/h_space.wgsl");
+    /// Twin of `integrate`.
+    pub const INTEGRATE: &str = include_str!("../../shaders/integrate.wgsl");
     /// The entry point of a DFG bake.
     pub const DFG: &str = include_str!("../../shaders/dfg.wgsl");
 }
@@ -36,7 +38,7 @@ pub struct Kernel {
     pub push_bytes: u32,
 }
 
-/// The WGSL of the functions that make a lobe, for [`wgsl::H_SPACE`] to call.
+/// The WGSL that integrates a lobe: every function but an entry point.
 pub fn lobe_source(lobe: Microfacet, power: Power) -> String {
     let (density, smith) = match lobe.ndf {
         Ndf::Ggx => ("ggx_slope_density(y2)", "ggx_smith(c, alpha)"),
@@ -57,7 +59,7 @@ fn smith(c: f32, alpha: f32) -> f32 {{ return {smith}; }}
 fn cosine_visibility(x: f32, mu: f32, alpha: f32) -> f32 {{ return {visibility}; }}
 "
     );
-    [wgsl::FRESNEL, wgsl::GGX, wgsl::MASKING, wgsl::SLOPE_MAP, wgsl::H_SPACE, &glue].join("\n")
+    [wgsl::FRESNEL, wgsl::GGX, wgsl::MASKING, wgsl::SLOPE_MAP, wgsl::H_SPACE, wgsl::INTEGRATE, &glue].join("\n")
 }
 
 /// The shader that bakes (A, B) of a lobe.

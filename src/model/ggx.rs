@@ -21,6 +21,9 @@ pub fn ggx_slope_density(y2: f64) -> f64 {
 }
 
 /// c (1 + 2Λ(c)) = √(α² + (1-α²) c²), with Smith's Λ of GGX (Heitz 2014, equation 72).
+///
+/// In units of α: c² alone would underflow in f32 where both are tiny.
 pub fn ggx_smith(c: f64, alpha: f64) -> f64 {
-    (alpha * alpha + (1.0 - alpha) * (1.0 + alpha) * (c * c)).sqrt()
+    let q = c * (1.0 / alpha);
+    alpha * (1.0 + (1.0 - alpha) * (1.0 + alpha) * (q * q)).sqrt()
 }

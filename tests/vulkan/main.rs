@@ -1,0 +1,53 @@
+//! Tests on Vulkan devices: each runs on every device found. Without a device each is reported as ignored, with the
+//! reason; where SPLITSUM_REQUIRE_VULKAN is set, that is a failure instead.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod faults;
+mod tables;
+mod twins;
+
+use libtest_mimic::{Arguments, Failed, Trial};
+use splitsum::backend::vulkan::devices::{DeviceInfo, list_devices};
+use splitsum::backend::vulkan::gpu::{Gpu, GpuOptions};
+
+/// A test of a device.
+type DeviceTest = (&'static str, fn(&Gpu) -> Result<(), Failed>);
+
+/// Whether a missing device, layer or tool is a failure.
+fn required() -> bool {
+    std::env::var_os("SPLITSUM_REQUIRE_VULKAN").is_some()
+}
+
+/// A test that cannot run here: ignored, or failed where it is required.
+fn missing(name: String, reason: String) -> Trial {
+    if required() {
+        return Trial::test(name, move || Err(format!("SPLITSUM_REQUIRE_VULKAN is set, but {reason}").into()));
+    }
+    Trial::test(format!("{name} ({reason})"), || Ok(())).with_ignored_flag(true)
+}
+
+fn on(device: &DeviceInfo, (name, test): DeviceTest) -> Trial {
+    let options = GpuOptions { device: Some(device.uuid.clone()), ..GpuOptions::default() };
+    Trial::test(format!("{}: {name}", device.name), move || test(&Gpu::open(&options)?))
+}
+
+fn main() {
+    let mut arguments = Arguments::from_args();
+    // The tests use every core themselves, and loaders are not at their best when many threads open devices.
+    arguments.test_threads = Some(1);
+    let tests: Vec<DeviceTest> = twins::TESTS.iter().chain(tables::TESTS).copied().collect();
+    let mut trials: Vec<Trial> = match list_devices() {
+        Ok(devices) if !devices.is_empty() => {
+            devices.iter().flat_map(|device| tests.iter().map(|&test| on(device, test))).collect()
+        }
+        outcome => {
+            let reason = outcome.err().map_or("no Vulkan device".into(), |error| error.to_string());
+            tests.iter().map(|(name, _)| missing(format!("no device: {name}"), reason.clone())).collect()
+        }
+    };
+    trials.extend(tables::validated());
+    trials.extend(faults::trials());
+    libtest_mimic::run(&arguments, trials).exit();
+}

@@ -1,0 +1,150 @@
+//! Whole tables on a device, against the CPU in f64.
+
+use crate::common::{MASKINGS, ggx};
+use crate::{DeviceTest, missing};
+use libtest_mimic::{Failed, Trial};
+use splitsum::axis::Axis;
+use splitsum::backend::cpu;
+use splitsum::backend::shader::dfg_kernel;
+use splitsum::backend::vulkan::bake::bake;
+use splitsum::backend::vulkan::devices::list_devices;
+use splitsum::backend::vulkan::gpu::{Gpu, GpuOptions};
+use splitsum::certify::cross_check;
+use splitsum::integrate::ScaleBias;
+use splitsum::integrate::h_space::HSpaceRule;
+use splitsum::integrate::rule::{Method, RULES, Rule};
+use splitsum::lut::Grid;
+use splitsum::quadrature::slope_map::Power;
+use std::process::Command;
+
+pub const TESTS: &[DeviceTest] = &[
+    ("tables are within 1e-6 of f64 at every texel", tables_are_within_1e_6),
+    ("every rule runs and passes the cross-check", every_rule_runs),
+    ("the closed domain has no holes", the_closed_domain_has_no_holes),
+    ("tile sizes do not change a bit", tile_sizes_do_not_change_a_bit),
+    ("a table beyond the storage-buffer limit bakes", a_table_beyond_the_limit_bakes),
+];
+
+fn grid(x: &str, y: &str, width: usize, height: usize) -> Grid {
+    let axis = |words: &str, size| Axis::new(words.parse().unwrap(), size).unwrap();
+    Grid::new(&axis(x, width), &axis(y, height)).unwrap()
+}
+
+/// The finest rule: what the device adds to it is f32 arithmetic alone.
+fn finest() -> (Rule, HSpaceRule) {
+    on_device(&Rule::named("h6144").unwrap()).unwrap()
+}
+
+fn on_device(rule: &Rule) -> Option<(Rule, HSpaceRule)> {
+    match rule.method {
+        Method::HSpace(nodes) => Some((*rule, nodes)),
+        _ => None,
+    }
+}
+
+fn close(gpu: &Gpu, lobe: splitsum::model::Microfacet, grid: &Grid) -> Result<(), Failed> {
+    let (rule, nodes) = finest();
+    let device = bake(gpu, lobe, grid, &nodes, &|_| ())?;
+    let truth = cpu::bake(lobe, grid, &rule, &|_| ());
+    for (i, (got, truth)) in device.iter().zip(&truth).enumerate() {
+        // The promise; 5e-7 is what correctly rounded division and root give.
+        let close = (got.a - truth.a).abs() <= 1e-6 && (got.b - truth.b).abs() <= 1e-6;
+        if !close {
+            return Err(format!("{lobe:?} at (n.v, alpha) = {:?}: {got:?} for {truth:?}", grid.point(i)).into());
+        }
+    }
+    Ok(())
+}
+
+fn tables_are_within_1e_6(gpu: &Gpu) -> Result<(), Failed> {
+    MASKINGS.iter().try_for_each(|&masking| close(gpu, ggx(masking), &grid("nov", "roughness", 48, 48)))
+}
+
+fn the_closed_domain_has_no_holes(gpu: &Gpu) -> Result<(), Failed> {
+    let mut grid = grid("nov,edges", "roughness,edges", 33, 33);
+    let near_edges = [1e-12, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 1.0 - 1e-4, 1.0 - 1e-6];
+    grid.mus.extend(near_edges);
+    grid.alphas.extend([5e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 2e-3, 5e-3, 0.999].map(|r| r * r));
+    MASKINGS.iter().try_for_each(|&masking| close(gpu, ggx(masking), &grid))
+}
+
+fn every_rule_runs(gpu: &Gpu) -> Result<(), Failed> {
+    let grid = grid("nov,sqrt", "roughness,sqrt", 40, 24);
+    for (rule, nodes) in RULES.iter().filter_map(on_device) {
+        let table = bake(gpu, ggx(MASKINGS[0]), &grid, &nodes, &|_| ())?;
+        cross_check(ggx(MASKINGS[0]), &grid, &rule, &table)?;
+    }
+    Ok(())
+}
+
+fn tile_sizes_do_not_change_a_bit(gpu: &Gpu) -> Result<(), Failed> {
+    let grid = grid("nov", "roughness,edges", 50, 41);
+    let nodes = Rule::named("h288").ok().as_ref().and_then(on_device).unwrap().1;
+    let baked = |tile| -> Result<Vec<ScaleBias>, Failed> {
+        let options = GpuOptions { device: Some(gpu.info().uuid.clone()), tile, validate: false };
+        Ok(bake(&Gpu::open(&options)?, ggx(MASKINGS[0]), &grid, &nodes, &|_| ())?)
+    };
+    let adapted = baked(None)?;
+    for tile in [8, 64, 100, 2050] {
+        let same = baked(Some(tile))?
+            .iter()
+            .zip(&adapted)
+            .all(|(a, b)| (a.a.to_bits(), a.b.to_bits()) == (b.a.to_bits(), b.b.to_bits()));
+        if !same {
+            return Err(format!("a tile of {tile} texels changes bits").into());
+        }
+    }
+    Ok(())
+}
+
+fn a_table_beyond_the_limit_bakes(gpu: &Gpu) -> Result<(), Failed> {
+    // 16.8 million texels of 8 bytes: more than the 128 MiB that lavapipe and many devices allow for a storage buffer.
+    let grid = grid("nov", "roughness", 4100, 4096);
+    let (rule, nodes) = RULES.iter().find_map(on_device).unwrap();
+    let table = bake(gpu, ggx(MASKINGS[0]), &grid, &nodes, &|_| ())?;
+    assert_eq!(table.len(), grid.len());
+    cross_check(ggx(MASKINGS[0]), &grid, &rule, &table)?;
+    Ok(())
+}
+
+/// On every device under the validation layers; and what they cannot see, by spirv-val.
+pub fn validated() -> Vec<Trial> {
+    let mut trials = vec![spirv_val()];
+    for device in list_devices().unwrap_or_default() {
+        let name = format!("{}: the validation layers have nothing to say", device.name);
+        let options = GpuOptions { device: Some(device.uuid), validate: true, tile: Some(100) };
+        trials.push(match Gpu::open(&options) {
+            Err(error) => missing(name, error.to_string()),
+            Ok(gpu) => Trial::test(name, move || {
+                let grid = grid("nov", "roughness", 32, 16);
+                let (rule, nodes) = finest();
+                let table = bake(&gpu, ggx(MASKINGS[0]), &grid, &nodes, &|_| ())?;
+                cross_check(ggx(MASKINGS[0]), &grid, &rule, &table)?;
+                assert_eq!(gpu.validation_messages(), Vec::<String>::new());
+                Ok(())
+            }),
+        });
+    }
+    trials
+}
+
+fn spirv_val() -> Trial {
+    let name = "every shader passes spirv-val".to_owned();
+    if Command::new("spirv-val").arg("--version").output().is_err() {
+        return missing(name, "spirv-val is not installed".into());
+    }
+    Trial::test(name, || {
+        for masking in MASKINGS {
+            for power in [Power::Two, Power::Four] {
+                let mut file = tempfile::NamedTempFile::new()?;
+                let spirv = dfg_kernel(ggx(masking), power)?.spirv;
+                std::io::Write::write_all(&mut file, bytemuck::cast_slice(&spirv))?;
+                let output = Command::new("spirv-val").args(["--target-env", "vulkan1.1"]).arg(file.path()).output()?;
+                if !output.status.success() {
+                    return Err(String::from_utf8_lossy(&output.stderr).into_owned().into());
+                }
+            }
+        }
+        Ok(())
+    })
+}

@@ -1,0 +1,323 @@
+//! Every WGSL function alone, on 1,024 arguments, against its f64 twin.
+
+use crate::DeviceTest;
+use crate::common::{Random, ggx};
+use libtest_mimic::Failed;
+use splitsum::backend::shader::{compile, lobe_source};
+use splitsum::backend::vulkan::bake::node_data;
+use splitsum::backend::vulkan::buffer::Buffer;
+use splitsum::backend::vulkan::gpu::Gpu;
+use splitsum::backend::vulkan::pipeline::Pipeline;
+use splitsum::integrate::ScaleBias;
+use splitsum::integrate::h_space::{
+    HSpaceNodes, HSpaceRule, cut_circle, full_circle, h_space, integrand, radial_weight, ring,
+};
+use splitsum::model::fresnel::schlick_weight;
+use splitsum::model::ggx::{ggx_slope_density, ggx_smith};
+use splitsum::model::masking::{height_correlated, schlick_smith, separable};
+use splitsum::model::{Masking, Microfacet};
+use splitsum::quadrature::slope_map::{MappedSlope, Power, slope_at, slope_complement, slope_interval};
+
+pub const TESTS: &[DeviceTest] = &[
+    ("functions equal their twins, height-correlated, p = 4", |gpu| all(gpu, Masking::HeightCorrelated, Power::Four)),
+    ("functions equal their twins, separable, p = 2", |gpu| all(gpu, Masking::Separable, Power::Two)),
+    ("functions equal their twins, Schlick-Smith, p = 4", |gpu| all(gpu, Masking::SchlickSmith, Power::Four)),
+];
+
+const COUNT: usize = 1024;
+
+/// One ulp of f32, relative.
+const ULP: f64 = 1.0 / 8388608.0;
+
+struct Twin {
+    name: &'static str,
+    /// The call in WGSL, as a vec4; `p` holds the arguments.
+    wgsl: &'static str,
+    /// The same in Rust.
+    rust: Box<dyn Fn([f64; 4]) -> [f64; 4]>,
+    /// Arguments from random numbers.
+    arguments: fn(&mut Random) -> [f64; 4],
+    /// Ulps that the result may be off, of its own size and of `scale`: about one for each rounding on the longest path,
+    /// and two and a half where a division or a root is one of them, since Vulkan allows that much.
+    ulps: f64,
+    /// The size below which errors are counted as absolute.
+    scale: f64,
+}
+
+fn unit(random: &mut Random) -> f64 {
+    random.next()
+}
+
+/// A number from 1e-6 to 1, evenly by its logarithm.
+fn small(random: &mut Random) -> f64 {
+    10f64.powf(-6.0 * random.next())
+}
+
+fn sine(mu: f64) -> f64 {
+    ((1.0 - mu) * (1.0 + mu)).sqrt()
+}
+
+fn pair(value: ScaleBias) -> [f64; 4] {
+    [value.a, value.b, 0.0, 0.0]
+}
+
+const H288: HSpaceRule =
+    HSpaceRule { radial: 16, azimuth: 8, radial_horizon: 20, azimuth_horizon: 8, power: Power::Four };
+
+fn twins(lobe: Microfacet, nodes: &HSpaceNodes) -> Vec<Twin> {
+    let power = nodes.power;
+    let nodes = || nodes.clone();
+    let (full, cut, whole, whole_or_mirror) = (nodes(), nodes(), nodes(), nodes());
+    let four = |f: fn([f64; 4]) -> f64| move |a| [f(a), 0.0, 0.0, 0.0];
+    let three = |random: &mut Random| [small(random), small(random), small(random), small(random)];
+    vec![
+        Twin {
+            name: "schlick_weight",
+            wgsl: "vec4(schlick_weight(p.x), 0.0, 0.0, 0.0)",
+            rust: Box::new(four(|a| schlick_weight(a[0]))),
+            arguments: |random| [unit(random), 0.0, 0.0, 0.0],
+            // 1 - x is exact to an ulp of 1, and its fifth power five times as far off.
+            ulps: 8.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "ggx_slope_density",
+            wgsl: "vec4(ggx_slope_density(p.x), slope_density(p.x), 0.0, 0.0)",
+            rust: Box::new(|a| [ggx_slope_density(a[0]), ggx_slope_density(a[0]), 0.0, 0.0]),
+            arguments: |random| [1e6 * small(random) * small(random), 0.0, 0.0, 0.0],
+            ulps: 9.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "ggx_smith",
+            wgsl: "vec4(ggx_smith(p.x, p.y), smith(p.x, p.y), 0.0, 0.0)",
+            rust: Box::new(|a| [ggx_smith(a[0], a[1]), ggx_smith(a[0], a[1]), 0.0, 0.0]),
+            arguments: three,
+            ulps: 5.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "height_correlated, separable, schlick_smith",
+            wgsl: "vec4(height_correlated(p.x, p.y, p.z, p.w), separable(p.x, p.y, p.z, p.w), schlick_smith(p.x, p.y, p.z), 0.0)",
+            rust: Box::new(|[x, mu, sx, smu]| {
+                [height_correlated(x, mu, sx, smu), separable(x, mu, sx, smu), schlick_smith(x, mu, sx), 0.0]
+            }),
+            arguments: three,
+            ulps: 12.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "cosine_visibility",
+            wgsl: "vec4(cosine_visibility(p.x, p.y, p.z), 0.0, 0.0, 0.0)",
+            rust: Box::new(move |a| [lobe.cosine_visibility(a[0], a[1], a[2]), 0.0, 0.0, 0.0]),
+            arguments: three,
+            ulps: 16.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "slope_complement",
+            wgsl: "vec4(slope_complement(p.x), 0.0, 0.0, 0.0)",
+            rust: Box::new(move |a| [slope_complement(a[0], power), 0.0, 0.0, 0.0]),
+            arguments: |random| [1e9 * small(random) * small(random), 0.0, 0.0, 0.0],
+            ulps: 8.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "slope_interval",
+            wgsl: "interval_as_vector(slope_interval(p.x, p.y))",
+            rust: Box::new(move |a| {
+                let i = slope_interval(a[0], a[1], power);
+                [i.w0, i.plus0, i.minus1, i.width]
+            }),
+            arguments: |random| {
+                let y = 1e3 * small(random);
+                let below = if unit(random) < 0.5 { -y } else { 0.5 * y };
+                [below, y, 0.0, 0.0]
+            },
+            ulps: 10.0,
+            // w0 and the length are differences of numbers up to 2.
+            scale: 2.0,
+        },
+        Twin {
+            name: "slope_at",
+            wgsl: "mapped_as_vector(slope_at(p.x, SlopeInterval(p.y, 1.0 + p.y, p.z, 1.0 - p.y - p.z)))",
+            rust: Box::new(move |a| {
+                let (w0, minus1) = (a[1], a[2]);
+                let interval = splitsum::quadrature::slope_map::SlopeInterval {
+                    w0,
+                    plus0: 1.0 + w0,
+                    minus1,
+                    width: 1.0 - w0 - minus1,
+                };
+                let MappedSlope { y, dy } = slope_at(a[0], interval, power);
+                [y, dy, 0.0, 0.0]
+            }),
+            arguments: |random| [unit(random), 0.5 * unit(random), 0.01 + 0.3 * unit(random), 0.0],
+            // The power of a rounding in 1 - w: 2p + 1 = 9 times that of three operations, and two divisions.
+            ulps: 40.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "ring",
+            wgsl: "ring_as_vector(ring(p.x, p.y, p.z))",
+            rust: Box::new(|a| {
+                let r = ring(a[0], a[1], a[2]);
+                [r.m, r.s, r.secant2, r.half_secant]
+            }),
+            arguments: |random| [unit(random), unit(random), 10.0 * unit(random), 0.0],
+            ulps: 9.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "integrand",
+            wgsl: "vec4(integrand(p.x, p.y, p.z, p.w), 0.0, 0.0)",
+            rust: Box::new(move |a| pair(integrand(lobe, a[0], a[1], a[2], a[3]))),
+            // v·h = (x + μ) half_secant stays below 1.
+            arguments: |random| {
+                let (x, mu) = (unit(random), unit(random));
+                [x, mu, small(random), unit(random) / (x + mu)]
+            },
+            ulps: 30.0,
+            // g (1 - F) is off by the rounding of F, at most an ulp of 1; g stays below 2 by some.
+            scale: 1.0,
+        },
+        Twin {
+            name: "full_circle",
+            wgsl: "full(p.x, p.y, p.z)",
+            rust: Box::new(move |a| {
+                let tau = a[2] * a[0] / (1.0 + sine(a[0]));
+                pair(full_circle(lobe, a[0], a[1], ring(a[0], sine(a[0]), tau), &full.azimuth))
+            }),
+            arguments: |random| [unit(random), small(random), unit(random), 0.0],
+            // 8 terms of the integrand; at the horizon x is the difference of two numbers up to 1.
+            ulps: 15.0,
+            scale: 8.0,
+        },
+        Twin {
+            name: "cut_circle",
+            wgsl: "cut(p.x, p.y, p.z)",
+            rust: Box::new(move |a| {
+                let t1 = a[0] / (1.0 + sine(a[0]));
+                let tau = t1 * (1.0 + a[2] * (1.0 / (t1 * t1) - 1.0));
+                pair(cut_circle(lobe, a[0], a[1], ring(a[0], sine(a[0]), tau), &cut.azimuth_horizon))
+            }),
+            arguments: |random| {
+                let mu = 0.05 + 0.9 * unit(random);
+                [mu, small(random).max(0.05), 0.05 + 0.9 * unit(random), 0.0]
+            },
+            // The same, and the cut's angle, whose cosine is a rounded quotient.
+            ulps: 20.0,
+            scale: 8.0,
+        },
+        Twin {
+            name: "radial_weight",
+            wgsl: "vec4(radial_weight(p.x, MappedSlope(p.y, p.z), p.w), 0.0, 0.0, 0.0)",
+            rust: Box::new(move |a| {
+                [radial_weight(lobe, a[0], MappedSlope { y: a[1], dy: a[2] }, a[3]), 0.0, 0.0, 0.0]
+            }),
+            arguments: |random| [unit(random), 1e3 * small(random), unit(random), 1.0 + unit(random)],
+            ulps: 15.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "h_space",
+            wgsl: "vec4(h_space(p.x, p.y, Rule(16u, 8u, 20u, 8u)), 0.0, 0.0)",
+            rust: Box::new(move |a| pair(h_space(lobe, a[0], a[1], &whole))),
+            arguments: |random| [unit(random), small(random), 0.0, 0.0],
+            // What f32 arithmetic may add to a rule (integrate::rule::F32_ARITHMETIC) is 9e-7.
+            ulps: 7.5,
+            scale: 1.0,
+        },
+        Twin {
+            name: "integrate, mirror",
+            wgsl: "vec4(integrate(p.x, p.y, Rule(16u, 8u, 20u, 8u)), mirror(p.x))",
+            rust: Box::new(move |a| {
+                let mirror = ScaleBias::mirror(a[0]);
+                let value = if a[1] == 0.0 { mirror } else { h_space(lobe, a[0], a[1], &whole_or_mirror) };
+                [value.a, value.b, mirror.a, mirror.b]
+            }),
+            arguments: |random| {
+                let alpha = if unit(random) < 0.3 { 0.0 } else { small(random) };
+                [unit(random), alpha, 0.0, 0.0]
+            },
+            ulps: 7.5,
+            scale: 1.0,
+        },
+        Twin {
+            name: "add",
+            wgsl: "vec4(sum_of_multiples(p.x), 0.0, 0.0)",
+            // 1 + 2 + … + 20 times the argument.
+            rust: Box::new(|a| {
+                let mut sum = ScaleBias::default();
+                (1..=20).for_each(|i| sum.add(f64::from(i), ScaleBias { a: a[0], b: -a[0] }));
+                pair(sum)
+            }),
+            arguments: |random| [unit(random), 0.0, 0.0, 0.0],
+            ulps: 12.0,
+            scale: 0.0,
+        },
+    ]
+}
+
+const HELPERS: &str = "
+fn interval_as_vector(i: SlopeInterval) -> vec4<f32> { return vec4(i.w0, i.plus0, i.minus1, i.width); }
+fn mapped_as_vector(m: MappedSlope) -> vec4<f32> { return vec4(m.y, m.dy, 0.0, 0.0); }
+fn ring_as_vector(r: Ring) -> vec4<f32> { return vec4(r.m, r.s, r.secant2, r.half_secant); }
+fn sine(mu: f32) -> f32 { return sqrt((1.0 - mu) * (1.0 + mu)); }
+fn full(mu: f32, alpha: f32, place: f32) -> vec4<f32> {
+    let r = ring(mu, sine(mu), place * mu / (1.0 + sine(mu)));
+    return vec4(full_circle(mu, alpha, r, 16u, 8u), 0.0, 0.0);
+}
+fn cut(mu: f32, alpha: f32, place: f32) -> vec4<f32> {
+    let t1 = mu / (1.0 + sine(mu));
+    let r = ring(mu, sine(mu), t1 * (1.0 + place * (1.0 / (t1 * t1) - 1.0)));
+    return vec4(cut_circle(mu, alpha, r, 44u, 8u), 0.0, 0.0);
+}
+fn sum_of_multiples(x: f32) -> vec2<f32> {
+    var sum = Sum(vec2<f32>(0.0), vec2<f32>(0.0));
+    for (var i = 0u; i < 20u; i++) { add(&sum, i, f32(i + 1u) * vec2<f32>(x, -x)); }
+    return sum.total + sum.block;
+}
+";
+
+fn all(gpu: &Gpu, masking: Masking, power: Power) -> Result<(), Failed> {
+    let lobe = ggx(masking);
+    let nodes = HSpaceRule { power, ..H288 }.nodes();
+    for twin in twins(lobe, &nodes) {
+        compare(gpu, lobe, &nodes, &twin)?;
+    }
+    Ok(())
+}
+
+fn compare(gpu: &Gpu, lobe: Microfacet, nodes: &HSpaceNodes, twin: &Twin) -> Result<(), Failed> {
+    let mut random = Random(20261122);
+    let arguments: Vec<[f32; 4]> =
+        (0..COUNT).map(|_| (twin.arguments)(&mut random).map(|argument| argument as f32)).collect();
+    let entry = format!(
+        "@group(0) @binding(1) var<storage, read> arguments: array<vec4<f32>>;
+        @group(0) @binding(2) var<storage, read_write> results: array<vec4<f32>>;
+        @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3<u32>) {{
+            let p = arguments[id.x];
+            results[id.x] = {};
+        }}",
+        twin.wgsl
+    );
+    let kernel = compile(&[&lobe_source(lobe, nodes.power), HELPERS, &entry].join("\n"))?;
+    let node_buffer = Buffer::with(gpu, &node_data(nodes))?;
+    let input = Buffer::with(gpu, &arguments)?;
+    let output = Buffer::new(gpu, 16 * COUNT)?;
+    let buffers = [&node_buffer, &input, &output];
+    Pipeline::new(gpu, &kernel, &buffers)?.run(&[], (COUNT / kernel.workgroup) as u32)?;
+    for (argument, result) in arguments.iter().zip(output.read::<[f32; 4]>(COUNT)) {
+        let truth = (twin.rust)(argument.map(f64::from));
+        for (got, truth) in result.map(f64::from).into_iter().zip(truth) {
+            let allowed = twin.ulps * ULP * truth.abs().max(twin.scale);
+            // Written so that NaN fails.
+            let close = (got - truth).abs() <= allowed;
+            if !close {
+                return Err(format!("{} of {argument:?}: {got:e} for {truth:e}, {allowed:e} allowed", twin.name).into());
+            }
+        }
+    }
+    Ok(())
+}
