@@ -37,6 +37,9 @@ pub struct Microfacet {
 }
 
 impl Ndf {
+    /// All of them.
+    pub const ALL: [Ndf; 1] = [Ndf::Ggx];
+
     /// P = α² P22: the density of the scaled slope y = tan(θ_h)/α, given y²; 2π ∫ y P dy = 1 over y > 0.
     pub fn slope_density(self, y2: f64) -> f64 {
         match self {
@@ -50,6 +53,11 @@ impl Ndf {
             Ndf::Ggx => ggx::ggx_smith(c, alpha),
         }
     }
+}
+
+impl Masking {
+    /// All of them.
+    pub const ALL: [Masking; 3] = [Masking::HeightCorrelated, Masking::Separable, Masking::SchlickSmith];
 }
 
 impl Microfacet {

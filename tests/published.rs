@@ -3,18 +3,19 @@
 
 mod common;
 
-use common::{MASKINGS, figures, ggx, number};
+use common::{figures, ggx, number};
 use splitsum::axis::Axis;
 use splitsum::backend::Backend;
 use splitsum::integrate::rule::Rule;
 use splitsum::lut::{Dfg, DfgChannels, Lut};
+use splitsum::model::Masking;
 use splitsum::precision::Precision;
 use splitsum::request::{Accuracy, Request};
 use splitsum::table::{Difference, Table};
 
 fn bake(channels: DfgChannels, x: &str, y: &str, size: usize) -> Table {
     let axis = |words: &str| Axis::new(words.parse().unwrap(), size).unwrap();
-    let lut = Lut::Dfg(Dfg { lobe: ggx(MASKINGS[0]), channels });
+    let lut = Lut::Dfg(Dfg { lobe: ggx(Masking::HeightCorrelated), channels });
     let rule = Accuracy::Rule(Rule::named("h6144").unwrap());
     let request = Request::new(lut, axis(x), axis(y), rule, Precision::F32).unwrap();
     splitsum::bake(&request, &Backend::cpu(), &|_| ()).unwrap().table

@@ -79,11 +79,11 @@ pub fn run(arguments: BakeArgs) -> Result<()> {
         ));
     }
     let depfile = dependency_file(&arguments, &jobs)?;
+    set_threads(arguments.threads)?;
+    let backend = open(&arguments)?;
     for name in jobs.iter().map(|job| &job.output).chain(&depfile) {
         output::check(name)?;
     }
-    set_threads(arguments.threads)?;
-    let backend = open(&arguments)?;
     let tables = jobs.iter().map(|job| bake(job, &backend, &arguments)).collect::<Result<_>>()?;
     if let Some(depfile) = depfile {
         let outputs: Vec<&str> = jobs.iter().map(|job| job.output.as_str()).collect();

@@ -2,9 +2,8 @@
 #![allow(dead_code, reason = "each test binary uses a part of this")]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use libtest_mimic::Trial;
 use splitsum::model::{Masking, Microfacet, Ndf};
-
-pub const MASKINGS: [Masking; 3] = [Masking::HeightCorrelated, Masking::Separable, Masking::SchlickSmith];
 
 pub fn ggx(masking: Masking) -> Microfacet {
     Microfacet { ndf: Ndf::Ggx, masking }
@@ -56,4 +55,17 @@ pub fn domain(count: usize) -> Vec<(f64, f64)> {
         }
     }
     points
+}
+
+/// Whether a missing device, layer or tool is a failure.
+fn required() -> bool {
+    std::env::var_os("SPLITSUM_REQUIRE_VULKAN").is_some()
+}
+
+/// A test that cannot run here: ignored, or failed where it is required.
+pub fn missing(name: String, reason: String) -> Trial {
+    if required() {
+        return Trial::test(name, move || Err(format!("SPLITSUM_REQUIRE_VULKAN is set, but {reason}").into()));
+    }
+    Trial::test(format!("{name} ({reason})"), || Ok(())).with_ignored_flag(true)
 }

@@ -1,7 +1,6 @@
 //! Devices that lie: what the cross-check must find, on a table spoiled by hand and on a driver that computes nothing.
 
-use crate::common::{MASKINGS, ggx};
-use crate::missing;
+use crate::common::{ggx, missing};
 use libtest_mimic::{Failed, Trial};
 use splitsum::axis::{Axis, AxisSpec, Parameter};
 use splitsum::backend::cpu;
@@ -10,6 +9,7 @@ use splitsum::error::{Error, ExitCode};
 use splitsum::integrate::ScaleBias;
 use splitsum::integrate::rule::{F32_ARITHMETIC, Rule};
 use splitsum::lut::Grid;
+use splitsum::model::Masking;
 use std::process::Command;
 
 pub fn trials() -> Vec<Trial> {
@@ -35,7 +35,7 @@ fn grid() -> Grid {
 
 /// The failure of the cross-check of a good table after `spoil`.
 fn found_out(spoil: fn(&mut [ScaleBias])) -> Option<Failed> {
-    let (lobe, grid, rule) = (ggx(MASKINGS[0]), grid(), Rule::named("h288").unwrap());
+    let (lobe, grid, rule) = (ggx(Masking::HeightCorrelated), grid(), Rule::named("h288").unwrap());
     let mut table = cpu::bake(lobe, &grid, &rule, &|_| ());
     spoil(&mut table);
     cross_check(lobe, &grid, &rule, &table).err().map(|error| {
@@ -52,7 +52,7 @@ fn spoiled(what: &str, spoil: fn(&mut [ScaleBias])) -> Trial {
 }
 
 fn a_table_beyond_its_bound_fails() -> Result<(), Failed> {
-    let (lobe, grid, rule) = (ggx(MASKINGS[0]), grid(), Rule::named("h640").unwrap());
+    let (lobe, grid, rule) = (ggx(Masking::HeightCorrelated), grid(), Rule::named("h640").unwrap());
     let mut table = cpu::bake(lobe, &grid, &rule, &|_| ());
     assert!(measure(lobe, &grid, &rule, F32_ARITHMETIC, &table)?.largest() <= rule.bound);
     // The rule's bound and the arithmetic's are 1.9e-6 together.

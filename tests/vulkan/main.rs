@@ -8,25 +8,13 @@ mod faults;
 mod tables;
 mod twins;
 
+use common::missing;
 use libtest_mimic::{Arguments, Failed, Trial};
 use splitsum::backend::vulkan::devices::{DeviceInfo, list_devices};
 use splitsum::backend::vulkan::gpu::{Gpu, GpuOptions};
 
 /// A test of a device.
 type DeviceTest = (&'static str, fn(&Gpu) -> Result<(), Failed>);
-
-/// Whether a missing device, layer or tool is a failure.
-fn required() -> bool {
-    std::env::var_os("SPLITSUM_REQUIRE_VULKAN").is_some()
-}
-
-/// A test that cannot run here: ignored, or failed where it is required.
-fn missing(name: String, reason: String) -> Trial {
-    if required() {
-        return Trial::test(name, move || Err(format!("SPLITSUM_REQUIRE_VULKAN is set, but {reason}").into()));
-    }
-    Trial::test(format!("{name} ({reason})"), || Ok(())).with_ignored_flag(true)
-}
 
 fn on(device: &DeviceInfo, (name, test): DeviceTest) -> Trial {
     let options = GpuOptions { device: Some(device.uuid.clone()), ..GpuOptions::default() };

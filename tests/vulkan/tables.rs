@@ -1,7 +1,7 @@
 //! Whole tables on a device, against the CPU in f64.
 
-use crate::common::{MASKINGS, ggx};
-use crate::{DeviceTest, missing};
+use crate::DeviceTest;
+use crate::common::{ggx, missing};
 use libtest_mimic::{Failed, Trial};
 use splitsum::axis::Axis;
 use splitsum::backend::cpu;
@@ -14,6 +14,7 @@ use splitsum::integrate::ScaleBias;
 use splitsum::integrate::h_space::HSpaceRule;
 use splitsum::integrate::rule::{Method, RULES, Rule};
 use splitsum::lut::Grid;
+use splitsum::model::Masking;
 use splitsum::quadrature::slope_map::Power;
 use std::process::Command;
 
@@ -57,7 +58,7 @@ fn close(gpu: &Gpu, lobe: splitsum::model::Microfacet, grid: &Grid) -> Result<()
 }
 
 fn tables_are_within_1e_6(gpu: &Gpu) -> Result<(), Failed> {
-    MASKINGS.iter().try_for_each(|&masking| close(gpu, ggx(masking), &grid("nov", "roughness", 48, 48)))
+    Masking::ALL.iter().try_for_each(|&masking| close(gpu, ggx(masking), &grid("nov", "roughness", 48, 48)))
 }
 
 fn the_closed_domain_has_no_holes(gpu: &Gpu) -> Result<(), Failed> {
@@ -65,14 +66,14 @@ fn the_closed_domain_has_no_holes(gpu: &Gpu) -> Result<(), Failed> {
     let near_edges = [1e-12, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 1.0 - 1e-4, 1.0 - 1e-6];
     grid.mus.extend(near_edges);
     grid.alphas.extend([5e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 2e-3, 5e-3, 0.999].map(|r| r * r));
-    MASKINGS.iter().try_for_each(|&masking| close(gpu, ggx(masking), &grid))
+    Masking::ALL.iter().try_for_each(|&masking| close(gpu, ggx(masking), &grid))
 }
 
 fn every_rule_runs(gpu: &Gpu) -> Result<(), Failed> {
     let grid = grid("nov,sqrt", "roughness,sqrt", 40, 24);
     for (rule, nodes) in RULES.iter().filter_map(on_device) {
-        let table = bake(gpu, ggx(MASKINGS[0]), &grid, &nodes, &|_| ())?;
-        cross_check(ggx(MASKINGS[0]), &grid, &rule, &table)?;
+        let table = bake(gpu, ggx(Masking::HeightCorrelated), &grid, &nodes, &|_| ())?;
+        cross_check(ggx(Masking::HeightCorrelated), &grid, &rule, &table)?;
     }
     Ok(())
 }
@@ -82,7 +83,7 @@ fn tile_sizes_do_not_change_a_bit(gpu: &Gpu) -> Result<(), Failed> {
     let nodes = Rule::named("h288").ok().as_ref().and_then(on_device).unwrap().1;
     let baked = |tile| -> Result<Vec<ScaleBias>, Failed> {
         let options = GpuOptions { device: Some(gpu.info().uuid.clone()), tile, validate: false };
-        Ok(bake(&Gpu::open(&options)?, ggx(MASKINGS[0]), &grid, &nodes, &|_| ())?)
+        Ok(bake(&Gpu::open(&options)?, ggx(Masking::HeightCorrelated), &grid, &nodes, &|_| ())?)
     };
     let adapted = baked(None)?;
     for tile in [8, 64, 100, 2050] {
@@ -101,9 +102,9 @@ fn a_table_beyond_the_limit_bakes(gpu: &Gpu) -> Result<(), Failed> {
     // 16.8 million texels of 8 bytes: more than the 128 MiB that lavapipe and many devices allow for a storage buffer.
     let grid = grid("nov", "roughness", 4100, 4096);
     let (rule, nodes) = RULES.iter().find_map(on_device).unwrap();
-    let table = bake(gpu, ggx(MASKINGS[0]), &grid, &nodes, &|_| ())?;
+    let table = bake(gpu, ggx(Masking::HeightCorrelated), &grid, &nodes, &|_| ())?;
     assert_eq!(table.len(), grid.len());
-    cross_check(ggx(MASKINGS[0]), &grid, &rule, &table)?;
+    cross_check(ggx(Masking::HeightCorrelated), &grid, &rule, &table)?;
     Ok(())
 }
 
@@ -118,8 +119,8 @@ pub fn validated() -> Vec<Trial> {
             Ok(gpu) => Trial::test(name, move || {
                 let grid = grid("nov", "roughness", 32, 16);
                 let (rule, nodes) = finest();
-                let table = bake(&gpu, ggx(MASKINGS[0]), &grid, &nodes, &|_| ())?;
-                cross_check(ggx(MASKINGS[0]), &grid, &rule, &table)?;
+                let table = bake(&gpu, ggx(Masking::HeightCorrelated), &grid, &nodes, &|_| ())?;
+                cross_check(ggx(Masking::HeightCorrelated), &grid, &rule, &table)?;
                 assert_eq!(gpu.validation_messages(), Vec::<String>::new());
                 Ok(())
             }),
@@ -134,7 +135,7 @@ fn spirv_val() -> Trial {
         return missing(name, "spirv-val is not installed".into());
     }
     Trial::test(name, || {
-        for masking in MASKINGS {
+        for masking in Masking::ALL {
             for power in [Power::Two, Power::Four] {
                 let mut file = tempfile::NamedTempFile::new()?;
                 let spirv = dfg_kernel(ggx(masking), power)?.spirv;

@@ -1,0 +1,303 @@
+//! The program as its users meet it: what it prints, what it writes, how it refuses.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use tempfile::{TempDir, tempdir};
+
+fn splitsum(folder: &Path, arguments: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_splitsum"));
+    command.current_dir(folder).args(arguments.split_whitespace()).stdin(Stdio::null());
+    command
+}
+
+fn run(folder: &TempDir, arguments: &str) -> Output {
+    splitsum(folder.path(), arguments).output().unwrap()
+}
+
+fn ok(folder: &TempDir, arguments: &str) -> Output {
+    let output = run(folder, arguments);
+    assert!(output.status.success(), "{arguments}: {}", stderr(&output));
+    output
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// The command fails with this code and says these things, and leaves no file behind.
+fn refused(arguments: &str, code: i32, said: &[&str]) {
+    let folder = tempdir().unwrap();
+    let output = run(&folder, arguments);
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(code), "{arguments}: {text}");
+    for words in said {
+        assert!(text.contains(words), "{arguments}: no '{words}' in: {text}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "{arguments} left a file");
+}
+
+const CPU: &str = "bake --backend cpu --size 8";
+
+#[test]
+fn a_bake_says_who_computed_it_and_how_exact_it_is() {
+    let folder = tempdir().unwrap();
+    let text = stderr(&ok(&folder, "bake --backend cpu --size 16x8 -o a.exr"));
+    for words in ["a.exr: 16 x 8", "computed  by CPU, f64", "h288", "at most 1.0e-5", "texels", " ms"] {
+        assert!(text.contains(words), "no '{words}' in: {text}");
+    }
+    assert!(fs::read(folder.path().join("a.exr")).unwrap().starts_with(&[0x76, 0x2f, 0x31, 0x01]));
+}
+
+#[test]
+fn the_default_output_is_made_with_its_folder() {
+    let folder = tempdir().unwrap();
+    assert_eq!(stderr(&ok(&folder, &format!("{CPU} -q"))), "");
+    assert!(folder.path().join("out/dfg.exr").exists());
+}
+
+#[test]
+fn the_same_request_gives_the_same_bytes_on_any_number_of_threads() {
+    let folder = tempdir().unwrap();
+    let bytes = |threads| ok(&folder, &format!("{CPU} -q -o - --threads {threads}")).stdout;
+    let one = bytes(1);
+    assert!(one.len() > 500);
+    for threads in [1, 2, 5] {
+        assert_eq!(bytes(threads), one);
+    }
+}
+
+#[test]
+fn the_command_in_the_report_repeats_the_bake() {
+    let folder = tempdir().unwrap();
+    let flags =
+        "--masking separable --channels be --size 7x9 --x roughness,sqrt,edges,flip --precision f32 --tolerance 1e-4";
+    let report = ok(&folder, &format!("bake --backend cpu {flags} --json -o a.exr"));
+    let report: serde_json::Value = serde_json::from_slice(&report.stdout).unwrap();
+    let table = &report["tables"][0];
+    assert_eq!((&table["output"], &table["computed"]["kind"]), (&"a.exr".into(), &"cpu".into()));
+    assert!(table["accuracy"]["measured"]["texels"].as_u64().unwrap() == 63);
+    let command = table["command"].as_str().unwrap().strip_prefix("splitsum ").unwrap();
+    ok(&folder, &format!("{command} --backend cpu -q -o b.exr"));
+    let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert_eq!(read("a.exr"), read("b.exr"));
+}
+
+#[test]
+fn every_choice_bakes() {
+    let folder = tempdir().unwrap();
+    for flags in [
+        "--masking schlick-smith --channels e -o a.exr",
+        "--y nov -o b.exr",
+        "--x alpha,sqrt --y nov,sqrt-complement,edges -o c.png",
+        "--rule l128 -o d.png --precision unorm8",
+        "--rule reference -o e.exr --precision f32",
+        "--format png -o f.data",
+        "--size 1 -o g.exr",
+        "--size 1x5 --x nov,edges --y roughness,edges -o h.exr",
+        "--tolerance 1e-12 -o i.exr",
+    ] {
+        let size = if flags.contains("--size") { "" } else { "--size 6x5" };
+        ok(&folder, &format!("bake --backend cpu {size} {flags}"));
+    }
+}
+
+#[test]
+fn a_configuration_bakes_several_tables_beside_itself() {
+    let folder = tempdir().unwrap();
+    fs::create_dir(folder.path().join("assets")).unwrap();
+    let text = r#"
+        [[table]]
+        output = "dfg.exr"
+        size = 8
+
+        [[table]]
+        output = "sheared axes.png"
+        size = "8x4"
+        masking = "separable"
+        x = "roughness,edges"
+        tolerance = 1e-4
+    "#;
+    fs::write(folder.path().join("assets/luts.toml"), text).unwrap();
+    ok(&folder, "bake --backend cpu --config assets/luts.toml -MD");
+    let assets = folder.path().join("assets");
+    assert!(assets.join("dfg.exr").exists() && assets.join("sheared axes.png").exists());
+    let rule = fs::read_to_string(assets.join("luts.toml.d")).unwrap();
+    assert_eq!(rule, "assets/dfg.exr assets/sheared\\ axes.png: assets/luts.toml\n");
+}
+
+#[test]
+fn dependency_files_are_those_of_compilers() {
+    let folder = tempdir().unwrap();
+    ok(&folder, &format!("{CPU} -q -o a.exr -MD"));
+    assert_eq!(fs::read_to_string(folder.path().join("a.exr.d")).unwrap(), "a.exr:\n");
+    ok(&folder, &format!("{CPU} -q -o a.exr -MF deps -MT $name"));
+    assert_eq!(fs::read_to_string(folder.path().join("deps")).unwrap(), "$$name:\n");
+    refused(&format!("{CPU} -o a.exr -MT x"), 2, &["-MD or -MF"]);
+}
+
+#[test]
+fn wrong_configurations_say_where() {
+    let folder = tempdir().unwrap();
+    for (text, said) in [
+        ("", "at least one [[table]]"),
+        ("[[table]]\nsize = 8", "table 1: expected an output file"),
+        ("[[table]]\noutput = 'a.exr'\nrougness = 1", "unknown field `rougness`"),
+        ("[[table]]\noutput = 'a.exr'\nsize = -1", "got '-1'"),
+        ("[[table]]\noutput = 'a.exr'\nsize = 1.5", "line 3"),
+        ("[[table]]\noutput = 'a.exr'\n[[table]]\noutput = 'a.exr'", "table 2: expected an output of its own"),
+        ("[[table]]\noutput = 'a.exr'\ntolerance = nan", "1e-13 to 0.1"),
+        ("[[table]]\noutput = 'a.exr'\ntolerance = 1e-3\nrule = 'h56'", "got both"),
+        ("[[table", "line 1"),
+    ] {
+        fs::write(folder.path().join("bad.toml"), text).unwrap();
+        let output = run(&folder, "bake --backend cpu --config bad.toml");
+        assert_eq!(output.status.code(), Some(4), "{text}");
+        assert!(stderr(&output).contains(said), "no '{said}' in: {}", stderr(&output));
+    }
+    fs::write(folder.path().join("bad.toml"), [0xff, 0xfe]).unwrap();
+    assert_eq!(run(&folder, "bake --config bad.toml").status.code(), Some(4));
+    fs::write(folder.path().join("bad.toml"), vec![b' '; 2 << 20]).unwrap();
+    assert_eq!(run(&folder, "bake --config bad.toml").status.code(), Some(4));
+    refused("bake --config nowhere.toml", 3, &["cannot read nowhere.toml", "name a TOML file"]);
+    refused("bake --config x.toml --size 8", 2, &["--size", "cannot be used with"]);
+}
+
+#[test]
+fn wrong_values_are_refused_with_what_was_expected() {
+    refused("bake --size 0", 4, &["expected 1 to 16384", "got 0"]);
+    refused("bake --size 16385", 4, &["got 16385"]);
+    refused("bake --size 99999999999999999999", 4, &["a number"]);
+    refused("bake --size 4x", 4, &["got '4x'", "64x32"]);
+    refused("bake --tolerance 1e-14", 4, &["1e-13 to 0.1"]);
+    refused("bake --tolerance=-1", 4, &["1e-13 to 0.1"]);
+    refused("bake --tolerance inf", 4, &["1e-13 to 0.1"]);
+    refused("bake --rule simpson", 4, &["h56", "reference", "got 'simpson'"]);
+    refused("bake --model phong", 4, &["ggx", "got 'phong'"]);
+    refused("bake --lut sheen", 4, &["dfg", "got 'sheen'"]);
+    refused("bake --masking none", 4, &["height-correlated", "schlick-smith"]);
+    refused("bake --channels rgb", 4, &["ab", "be"]);
+    refused("bake --precision f64", 4, &["f16", "unorm8"]);
+    refused("bake --precision unorm8", 4, &["f16 or f32 for .exr"]);
+    refused("bake -o table.bmp", 4, &[".exr or .png", "'.bmp'"]);
+    refused("bake --format bmp", 4, &[".exr or .png"]);
+    refused("bake --x nov --y nov", 4, &["x = nov, y = nov"]);
+    refused("bake --x mu", 4, &["nov, roughness or alpha", "got 'mu'"]);
+    refused("bake --y roughness,offset=1e-9", 4, &["texel 0", "raise the axis's min"]);
+    refused("bake --threads 0", 4, &["1 to 1024"]);
+    refused("bake --backend metal", 4, &["auto, vulkan or cpu"]);
+}
+
+#[test]
+fn flags_that_make_no_sense_are_usage_errors() {
+    refused("bake --frobnicate", 2, &["--frobnicate"]);
+    refused("bake --rule h56 --tolerance 1e-3", 2, &["cannot be used with"]);
+    refused("bake --backend cpu --device llvmpipe", 2, &["leave out --device"]);
+    refused("bake --backend cpu --json -o -", 2, &["write the table to a file"]);
+    refused("bake --backend cpu -o - -MD", 2, &["-MF"]);
+    refused("frobnicate", 2, &["frobnicate"]);
+}
+
+#[test]
+fn what_only_the_cpu_can_do_is_an_error_on_vulkan_and_a_reason_on_auto() {
+    // Without a driver both end at the missing device, so this looks at the choice alone.
+    let folder = tempdir().unwrap();
+    let output = run(&folder, "bake --size 4 --rule l128 -o a.exr");
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(stderr(&output).contains("computed  by CPU, f64; not on Vulkan: "), "{}", stderr(&output));
+}
+
+#[test]
+fn without_a_driver_auto_says_why_and_vulkan_fails() {
+    let folder = tempdir().unwrap();
+    let with_drivers = |drivers: &str, arguments: &str| {
+        splitsum(folder.path(), arguments).env("VK_DRIVER_FILES", drivers).output().unwrap()
+    };
+    fs::write(folder.path().join("bad.json"), "not JSON").unwrap();
+    let library = r#"{"file_format_version":"1.0.0","ICD":{"library_path":"./nothing.so","api_version":"1.3.0"}}"#;
+    fs::write(folder.path().join("missing.json"), library).unwrap();
+    for drivers in ["/nowhere.json", "bad.json", "missing.json"] {
+        let drivers = folder.path().join(drivers).to_string_lossy().into_owned();
+        let output = with_drivers(&drivers, "bake --size 8 -o a.exr");
+        assert!(output.status.success(), "{}", stderr(&output));
+        assert!(stderr(&output).contains("not on Vulkan: "), "{}", stderr(&output));
+        let output = with_drivers(&drivers, "bake --size 8 --backend vulkan -o b.exr");
+        assert_eq!(output.status.code(), Some(5), "{}", stderr(&output));
+        assert!(stderr(&output).contains("--backend cpu") && !folder.path().join("b.exr").exists());
+        let output = with_drivers(&drivers, "devices");
+        assert_eq!(output.status.code(), Some(5), "{}", stderr(&output));
+    }
+    // No loader at all: a library of that name that is none.
+    fs::create_dir(folder.path().join("lib")).unwrap();
+    fs::write(folder.path().join("lib/libvulkan.so.1"), "xx").unwrap();
+    let library_path = folder.path().join("lib");
+    let output =
+        splitsum(folder.path(), "bake --size 8 -o a.exr").env("LD_LIBRARY_PATH", library_path).output().unwrap();
+    assert!(output.status.success() && stderr(&output).contains("not on Vulkan: "), "{}", stderr(&output));
+}
+
+#[test]
+fn an_unwritable_output_is_an_io_error_before_any_work() {
+    refused(&format!("{CPU} -o nowhere/a.exr"), 3, &["nowhere/a.exr", "create it first"]);
+    let folder = tempdir().unwrap();
+    fs::create_dir(folder.path().join("a.exr")).unwrap();
+    let output = run(&folder, &format!("{CPU} -o a.exr"));
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_io_error() {
+    let folder = tempdir().unwrap();
+    std::os::unix::fs::symlink("/dev/full", folder.path().join("full.exr")).unwrap();
+    let output = run(&folder, &format!("{CPU} -o full.exr"));
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert!(stderr(&output).contains("No space left"), "{}", stderr(&output));
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let status = splitsum(folder.path(), &format!("{CPU} -q -o -")).stdout(full).status().unwrap();
+    assert_eq!(status.code(), Some(3));
+}
+
+#[cfg(unix)]
+#[test]
+fn the_old_file_survives_a_failed_write() {
+    // A limit on file sizes fails the write in the middle: the signal is ignored, so that the call returns an error.
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("a.exr");
+    fs::write(&file, "the old file").unwrap();
+    let program = env!("CARGO_BIN_EXE_splitsum");
+    let script = format!("trap '' XFSZ; ulimit -f 1; exec {program} bake --backend cpu --size 64 -o a.exr");
+    let output = Command::new("bash").current_dir(&folder).args(["-c", &script]).output().unwrap();
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert_eq!(fs::read_to_string(&file).unwrap(), "the old file");
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "a temporary file was left");
+}
+
+#[cfg(unix)]
+#[test]
+fn links_and_permissions_are_kept() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let folder = tempdir().unwrap();
+    let (file, link) = (folder.path().join("real.exr"), folder.path().join("link.exr"));
+    fs::write(&file, "old").unwrap();
+    fs::set_permissions(&file, PermissionsExt::from_mode(0o640)).unwrap();
+    symlink("real.exr", &link).unwrap();
+    ok(&folder, &format!("{CPU} -o link.exr"));
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert!(fs::metadata(&file).unwrap().len() > 500);
+    assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
+}
+
+#[test]
+fn help_tells_the_exit_codes() {
+    let folder = tempdir().unwrap();
+    for arguments in ["--help", "bake --help", "devices --help"] {
+        let text = String::from_utf8(ok(&folder, arguments).stdout).unwrap();
+        for (code, meaning) in splitsum::error::ExitCode::MEANINGS {
+            assert!(text.contains(&format!("{}  {meaning}", code as u8)), "{arguments}: no {meaning}");
+        }
+    }
+    assert_eq!(run(&folder, "").status.code(), Some(2));
+    assert!(String::from_utf8(ok(&folder, "--version").stdout).unwrap().starts_with("splitsum "));
+}
