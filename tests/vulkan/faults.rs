@@ -1,19 +1,22 @@
-//! Devices that lie: what the cross-check must find, on a table spoiled by hand and on a driver that computes nothing.
+//! Devices that lie or fail: what the cross-check must find, on tables spoiled by hand and on drivers that compute nothing
+//! or leave something out; and that every failed call ends in an error with everything freed.
 
 use crate::common::{ggx, missing};
 use libtest_mimic::{Failed, Trial};
 use splitsum::axis::{Axis, AxisSpec, Parameter};
 use splitsum::backend::cpu;
+use splitsum::backend::vulkan::gpu::{Gpu, GpuOptions};
 use splitsum::certify::{cross_check, measure};
 use splitsum::error::{Error, ExitCode};
 use splitsum::integrate::ScaleBias;
 use splitsum::integrate::rule::{F32_ARITHMETIC, Rule};
 use splitsum::lut::Grid;
 use splitsum::model::Masking;
+use std::path::Path;
 use std::process::Command;
 
 pub fn trials() -> Vec<Trial> {
-    vec![
+    let mut trials = vec![
         Trial::test("a sound table passes the cross-check", || found_out(|_| ()).map_or(Ok(()), Err)),
         spoiled("a table of zeros", |table| table.fill(ScaleBias::default())),
         spoiled("a workgroup left out", |table| table[7 * 64..8 * 64].fill(ScaleBias::default())),
@@ -25,7 +28,9 @@ pub fn trials() -> Vec<Trial> {
         spoiled("an error of 2e-6 everywhere", |table| table.iter_mut().for_each(|value| value.b += 2e-6)),
         Trial::test("a table beyond its bound fails the measurement", a_table_beyond_its_bound_fails),
         a_driver_that_computes_nothing(),
-    ]
+    ];
+    trials.extend(FAULTS.map(faulty_driver));
+    trials
 }
 
 fn grid() -> Grid {
@@ -78,6 +83,67 @@ fn a_driver_that_computes_nothing() -> Trial {
         assert_eq!(output.status.code(), Some(ExitCode::CheckFailed as i32), "{output:?}");
         assert_eq!(std::fs::read_to_string(&file)?, "the old file");
         assert_eq!(std::fs::read_dir(folder.path())?.count(), 1);
+        Ok(())
+    })
+}
+
+/// A call that fails, and the exit code that it has to end in; `-4` is VK_ERROR_DEVICE_LOST, `-1`, `-2` out of memory,
+/// `-3` VK_ERROR_INITIALIZATION_FAILED, `-5` VK_ERROR_MEMORY_MAP_FAILED, `2` VK_TIMEOUT.
+const FAULTS: [(&str, ExitCode); 21] = [
+    ("vkCreateInstance=-9@1", ExitCode::NoDevice),
+    ("vkEnumeratePhysicalDevices=-3@1", ExitCode::NoDevice),
+    ("vkCreateDevice=-3@1", ExitCode::NoDevice),
+    ("vkCreateBuffer=-2@3", ExitCode::DeviceFailure),
+    ("vkAllocateMemory=-2@1", ExitCode::DeviceFailure),
+    ("vkAllocateMemory=-2@4", ExitCode::DeviceFailure),
+    ("vkBindBufferMemory=-2@2", ExitCode::DeviceFailure),
+    ("vkMapMemory=-5@2", ExitCode::DeviceFailure),
+    ("vkCreateShaderModule=-1@1", ExitCode::DeviceFailure),
+    ("vkCreateDescriptorSetLayout=-1@1", ExitCode::DeviceFailure),
+    ("vkCreatePipelineLayout=-1@1", ExitCode::DeviceFailure),
+    ("vkCreateComputePipelines=-3@1", ExitCode::DeviceFailure),
+    ("vkCreateDescriptorPool=-2@1", ExitCode::DeviceFailure),
+    ("vkAllocateDescriptorSets=-2@1", ExitCode::DeviceFailure),
+    ("vkCreateCommandPool=-2@1", ExitCode::DeviceFailure),
+    ("vkAllocateCommandBuffers=-2@1", ExitCode::DeviceFailure),
+    ("vkCreateFence=-2@1", ExitCode::DeviceFailure),
+    ("vkQueueSubmit=-4@1", ExitCode::DeviceFailure),
+    ("vkQueueSubmit=-4@3", ExitCode::DeviceFailure),
+    ("vkWaitForFences=2@2", ExitCode::DeviceFailure),
+    ("vkCmdDispatch=drop", ExitCode::CheckFailed),
+];
+
+/// The program on a real driver behind tests/vulkan/faulty_loader.rs, under the validation layers, which tell of every
+/// object that is left when the device goes.
+fn faulty_driver((fault, code): (&'static str, ExitCode)) -> Trial {
+    let name = format!("{fault} ends in exit code {} with everything freed", code as u8);
+    let shim = Path::new(env!("CARGO_BIN_EXE_splitsum")).with_file_name("examples/libfaulty_loader.so");
+    if !shim.exists() {
+        return missing(name, format!("{} is not built: run the whole of cargo test", shim.display()));
+    }
+    let loaders = ["/usr/lib/x86_64-linux-gnu/libvulkan.so.1", "/usr/lib64/libvulkan.so.1", "/usr/lib/libvulkan.so.1"];
+    let Some(loader) = loaders.into_iter().find(|path| Path::new(path).exists()) else {
+        return missing(name, "there is no Vulkan loader where Linux has it".into());
+    };
+    if let Err(error) = Gpu::open(&GpuOptions { validate: true, ..GpuOptions::default() }) {
+        return missing(name, error.to_string());
+    }
+    Trial::test(name, move || {
+        let folder = tempfile::tempdir()?;
+        std::os::unix::fs::symlink(&shim, folder.path().join("libvulkan.so.1"))?;
+        let output = Command::new(env!("CARGO_BIN_EXE_splitsum"))
+            .current_dir(&folder)
+            .env("LD_LIBRARY_PATH", folder.path())
+            .env("SPLITSUM_REAL_LOADER", loader)
+            .env("SPLITSUM_FAULT", fault)
+            .env("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation")
+            .args("bake --backend vulkan --size 64 --tile 512 -o a.exr".split(' '))
+            .output()?;
+        let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        assert_eq!(output.status.code(), Some(code as i32), "{out}{err}");
+        assert!(!folder.path().join("a.exr").exists());
+        // The layers print what they have to say on standard output.
+        assert_eq!(out, "", "the validation layers found something");
         Ok(())
     })
 }
