@@ -1,6 +1,6 @@
 // GGX: the twin of src/model/ggx.rs.
 
-// alpha^2 P22 at the squared scaled slope y^2 = (tan(theta_h)/alpha)^2 (Heitz 2014, equation 84).
+// alpha^2 P22 at the squared scaled slope y^2 = (tan(theta_h)/alpha)^2 (Heitz 2014, section 5).
 fn ggx_slope_density(y2: f32) -> f32 {
     let r = 1.0 / (1.0 + y2);
     return 0.318309886 * r * r;

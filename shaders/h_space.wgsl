@@ -1,5 +1,5 @@
 // The integral over half vectors: the twin of src/integrate/h_space.rs.
-// It needs slope_density, smith and cosine_visibility of the lobe, and the rule's nodes.
+// It needs slope_width, slope_end, slope_density and cosine_visibility of the lobe, and the rule's nodes.
 
 struct Rule {
     radial: u32,
@@ -10,9 +10,6 @@ struct Rule {
 
 // (position, weight), in the order of the fields of Rule.
 @group(0) @binding(0) var<storage, read> nodes: array<vec2<f32>>;
-
-// Scaled slopes beyond this carry less than 1e-9 of any lobe; its square is far from overflow.
-const SLOPE_END = 1e9;
 
 struct Ring {
     m: f32,
@@ -63,9 +60,9 @@ fn cut_circle(mu: f32, alpha: f32, r: Ring, first: u32, count: u32) -> vec2<f32>
     return sum;
 }
 
-// What a radial node weighs.
-fn radial_weight(node_weight: f32, slope: MappedSlope, secant2: f32) -> f32 {
-    return node_weight * slope.dy * slope.y * slope_density(slope.y * slope.y) * secant2;
+// What a radial node weighs, but for 1/cos^2 theta_h.
+fn radial_weight(alpha: f32, weight: f32, y: f32) -> f32 {
+    return weight * (y * slope_density(y * y, alpha));
 }
 
 // A sum in two levels: terms gather in blocks of 8, so that rounding grows with n/8 instead of n. Halves the error of a bake.
@@ -86,10 +83,12 @@ fn add(sum: ptr<function, Sum>, i: u32, term: vec2<f32>) {
 fn h_space(mu: f32, alpha: f32, rule: Rule) -> vec2<f32> {
     let sv = sqrt((1.0 - mu) * (1.0 + mu));
     let t1 = mu / (1.0 + sv);
-    let y1 = min(t1 / alpha, SLOPE_END);
-    var y2 = SLOPE_END;
-    if t1 * alpha * SLOPE_END > 1.0 {
-        y2 = 1.0 / (t1 * alpha);
+    let width = slope_width(alpha);
+    let end = slope_end(alpha);
+    let y1 = min(t1 / width, end);
+    var y2 = end;
+    if t1 * width * end > 1.0 {
+        y2 = 1.0 / (t1 * width);
     }
     let azimuth = rule.radial;
     let radial_horizon = azimuth + rule.azimuth;
@@ -99,9 +98,9 @@ fn h_space(mu: f32, alpha: f32, rule: Rule) -> vec2<f32> {
         let below = slope_interval(0.0, y1);
         for (var i = 0u; i < rule.radial; i++) {
             let slope = slope_at(nodes[i].x, below);
-            let r = ring(mu, sv, alpha * slope.y);
+            let r = ring(mu, sv, width * slope.y);
             let part = full_circle(mu, alpha, r, azimuth, rule.azimuth);
-            add(&sum, i, radial_weight(nodes[i].y, slope, r.secant2) * part);
+            add(&sum, i, radial_weight(alpha, nodes[i].y * slope.dy, slope.y) * r.secant2 * part);
         }
     }
     if sv > 0.0 {
@@ -109,9 +108,9 @@ fn h_space(mu: f32, alpha: f32, rule: Rule) -> vec2<f32> {
         for (var i = 0u; i < rule.radial_horizon; i++) {
             let node = nodes[radial_horizon + i];
             let slope = slope_at(node.x, beyond);
-            let r = ring(mu, sv, alpha * slope.y);
+            let r = ring(mu, sv, width * slope.y);
             let part = cut_circle(mu, alpha, r, azimuth_horizon, rule.azimuth_horizon);
-            add(&sum, i, radial_weight(node.y, slope, r.secant2) * part);
+            add(&sum, i, radial_weight(alpha, node.y * slope.dy, slope.y) * r.secant2 * part);
         }
     }
     return sum.total + sum.block;

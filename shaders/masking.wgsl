@@ -16,3 +16,18 @@ fn schlick_smith(x: f32, mu: f32, alpha: f32) -> f32 {
     let k1 = 1.0 - k;
     return 0.25 / (mu * k1 + k) * (x / (x * k1 + k));
 }
+
+// The joint approximation's c (1 + 2 Lambda(c)) (Hammon 2017; Vis_SmithJointApprox).
+fn joint_smith(c: f32, alpha: f32) -> f32 {
+    return c * (1.0 - alpha) + alpha;
+}
+
+// The implicit term, V = 1/4 (Hoffman 2013).
+fn implicit(x: f32) -> f32 {
+    return 0.25 * x;
+}
+
+// The visibility of velvet (Neubelt and Pettineo 2013).
+fn neubelt(x: f32, mu: f32) -> f32 {
+    return 0.25 * x / (x + mu - x * mu);
+}

@@ -22,6 +22,8 @@ pub enum Parameter {
     Roughness,
     /// α itself.
     Alpha,
+    /// The exponent n of Blinn-Phong, from 1 to 1e7: n = 10^(7p), α² = 2/(n+2).
+    Exponent,
 }
 
 /// How a position t in [0, 1] along the axis becomes the parameter p in [0, 1].
@@ -95,6 +97,8 @@ impl Axis {
                 Parameter::Nov => Cosine::new(value).map(drop),
                 Parameter::Roughness => PerceptualRoughness::new(value).map(drop),
                 Parameter::Alpha => Alpha::new(value).map(drop),
+                // p in [0, 1] is every exponent from 1 to 1e7.
+                Parameter::Exponent => Ok(()),
             };
             checked.map_err(|error| match error {
                 Error::BadInput(mut complaint) => {
@@ -158,12 +162,13 @@ impl Axis {
         };
         let min = self.spec.min;
         let p = if min > 0.0 { format!("max({p}, {min})") } else { p.into() };
+        let p = if self.spec.parameter == Parameter::Exponent { format!("10^(7 ({p}))") } else { p };
         format!("{} = {p}, t = clamp({t}, 0, 1)", self.spec.parameter)
     }
 }
 
 /// What the words of an axis can be; the text of `--help` and of errors.
-pub const AXIS_WORDS: &str = "PARAMETER[,MAPPING][,NODES][,flip][,min=X] with PARAMETER nov, roughness or alpha; \
+pub const AXIS_WORDS: &str = "PARAMETER[,MAPPING][,NODES][,flip][,min=X] with PARAMETER nov, roughness, alpha or exponent; \
 MAPPING linear, sqrt (t = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES centres, edges or offset=X with X in [-2, 2]";
 
 impl FromStr for AxisSpec {
@@ -176,6 +181,7 @@ impl FromStr for AxisSpec {
             "nov" => Parameter::Nov,
             "roughness" => Parameter::Roughness,
             "alpha" => Parameter::Alpha,
+            "exponent" => Parameter::Exponent,
             other => return Err(wrong(other)),
         };
         let mut spec = AxisSpec::of(parameter);
@@ -208,6 +214,7 @@ impl fmt::Display for Parameter {
             Parameter::Nov => "nov",
             Parameter::Roughness => "roughness",
             Parameter::Alpha => "alpha",
+            Parameter::Exponent => "exponent",
         })
     }
 }

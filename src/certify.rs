@@ -3,7 +3,7 @@
 use crate::backend::cpu;
 use crate::error::{Error, Result};
 use crate::integrate::ScaleBias;
-use crate::integrate::rule::{F32_ARITHMETIC, Rule};
+use crate::integrate::rule::{Rule, f32_arithmetic};
 use crate::lut::Grid;
 use crate::model::Microfacet;
 use serde::Serialize;
@@ -14,7 +14,7 @@ const RUN: usize = 64;
 /// Texels that are measured against the reference, at half a millisecond each.
 const MEASURED: usize = 128;
 
-/// The largest differences over a sample of texels.
+/// The largest differences over a sample of texels: absolute, or of albedos above 1 relative.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Deviation {
     /// Of A.
@@ -30,7 +30,8 @@ impl Deviation {
         let mut worst = Deviation { texels: sample.len(), ..Deviation::default() };
         let mut at = grid.point(0);
         for (&index, truth) in sample.iter().zip(truth) {
-            let (a, b) = (distance(table[index].a, truth.a), distance(table[index].b, truth.b));
+            let scale = truth.e().max(1.0);
+            let (a, b) = (distance(table[index].a, truth.a) / scale, distance(table[index].b, truth.b) / scale);
             if a.max(b) > worst.largest() {
                 at = grid.point(index);
             }
@@ -50,9 +51,11 @@ impl Deviation {
 }
 
 /// Compares a device's table with the CPU at one texel of every 64, at the corners, and every texel with the range
-/// [0, 1] of an albedo: a device that leaves out, zeroes or mixes up anything as large as a workgroup is found out.
+/// of the lobe's albedo: a device that leaves out, zeroes or mixes up anything as large as a workgroup is found out.
 pub fn cross_check(lobe: Microfacet, grid: &Grid, rule: &Rule, table: &[ScaleBias]) -> Result<Deviation> {
-    let range = -F32_ARITHMETIC..=1.0 + rule.bound + F32_ARITHMETIC;
+    let allowed = f32_arithmetic(lobe);
+    let most = if lobe.may_exceed_one() { f64::from(f32::MAX) } else { 1.0 + rule.bound(lobe) + allowed };
+    let range = -allowed..=most;
     if let Some(index) = table.iter().position(|v| !range.contains(&v.a) || !range.contains(&v.b)) {
         let (mu, alpha) = grid.point(index);
         let ScaleBias { a, b } = table[index];
@@ -65,11 +68,11 @@ pub fn cross_check(lobe: Microfacet, grid: &Grid, rule: &Rule, table: &[ScaleBia
     let sample: Vec<usize> = corners(grid).into_iter().chain(runs).collect();
     let truth = cpu::bake_at(lobe, grid, rule, &sample);
     let (worst, (mu, alpha)) = Deviation::between(grid, &sample, table, &truth);
-    if worst.within(F32_ARITHMETIC) {
+    if worst.within(allowed) {
         return Ok(worst);
     }
     Err(Error::CheckFailed(format!(
-        "device and CPU differ by {:e} in A and {:e} in B, {F32_ARITHMETIC:e} being allowed, worst at n.v = {mu}, \
+        "device and CPU differ by {:e} in A and {:e} in B, {allowed:e} being allowed, worst at n.v = {mu}, \
          alpha = {alpha}; the table is thrown away; use another device, or --backend cpu",
         worst.a, worst.b
     )))
@@ -87,7 +90,7 @@ pub fn measure(lobe: Microfacet, grid: &Grid, rule: &Rule, arithmetic: f64, tabl
     };
     let truth = cpu::bake_at(lobe, grid, &rule.yardstick(), &sample);
     let (worst, (mu, alpha)) = Deviation::between(grid, &sample, table, &truth);
-    let bound = rule.bound + arithmetic;
+    let bound = rule.bound(lobe) + arithmetic;
     if worst.within(bound) {
         return Ok(worst);
     }

@@ -31,9 +31,9 @@ impl ScaleBias {
         self.b += weight * part.b;
     }
 
-    /// The limit α → 0 at fixed n·v: a perfect mirror.
-    pub fn mirror(mu: f64) -> Self {
+    /// The limit α → 0 at fixed n·v: a perfect mirror, times `limit` ([`crate::model::Microfacet::smooth_limit`]).
+    pub fn mirror(mu: f64, limit: f64) -> Self {
         let b = schlick_weight(mu);
-        ScaleBias { a: 1.0 - b, b }
+        ScaleBias { a: limit * (1.0 - b), b: limit * b }
     }
 }

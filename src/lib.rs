@@ -14,6 +14,7 @@
 //! - [`table`]: values over two axes, bilinear lookup, differences
 //! - [`half`]: correctly rounded binary16
 //! - [`precision`]: how a value is stored
+//! - [`special`]: the special functions of the models
 //! - [`quadrature`]: Gauss-Legendre, the slope map, double exponential
 //! - [`model`]: distributions of normals, masking, Fresnel, with their citations
 //! - [`integrate`]: how a lobe becomes (A, B): over half vectors, over light directions, by the reference; the rules
@@ -47,6 +48,7 @@ pub mod axis;
 pub mod table;
 pub mod half;
 pub mod precision;
+pub mod special;
 pub mod quadrature;
 pub mod model;
 pub mod integrate;
@@ -60,7 +62,7 @@ pub mod cli;
 
 use backend::{Backend, Progress, cpu, vulkan};
 use error::{Complaint, Error, Result};
-use integrate::rule::{F32_ARITHMETIC, Method, Rule};
+use integrate::rule::{Method, Rule, f32_arithmetic};
 use lut::Lut;
 use report::{Computed, Report, Seconds};
 use request::{Accuracy, Request};
@@ -84,8 +86,8 @@ pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<
     let rule = match request.accuracy {
         Accuracy::Rule(rule) => rule,
         Accuracy::Tolerance(tolerance) => {
-            let arithmetic = if gpu.is_some() { F32_ARITHMETIC } else { 0.0 };
-            let rule = Rule::for_tolerance(tolerance, arithmetic);
+            let arithmetic = if gpu.is_some() { f32_arithmetic(dfg.lobe) } else { 0.0 };
+            let rule = Rule::for_tolerance(dfg.lobe, tolerance, arithmetic);
             rule.ok_or_else(|| Error::Internal(format!("no rule for the tolerance {tolerance}")))?
         }
     };
@@ -100,7 +102,7 @@ pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<
         None => (Computed::Cpu { reason }, 1e-15),
         Some(gpu) => {
             let cross_check = certify::cross_check(dfg.lobe, &grid, &rule, &integrals)?;
-            (Computed::Vulkan { device: gpu.info().clone(), cross_check }, F32_ARITHMETIC)
+            (Computed::Vulkan { device: gpu.info().clone(), cross_check }, f32_arithmetic(dfg.lobe))
         }
     };
     let measured = certify::measure(dfg.lobe, &grid, &rule, arithmetic, &integrals)?;
@@ -126,9 +128,10 @@ pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<
 
 /// The rule by which a device can do the job, or what stands in the way.
 fn device_rule(request: &Request) -> std::result::Result<Rule, Complaint> {
+    let Lut::Dfg(dfg) = request.lut;
     let found = match request.accuracy {
         Accuracy::Rule(rule) => Some(rule),
-        Accuracy::Tolerance(tolerance) => Rule::for_tolerance(tolerance, F32_ARITHMETIC),
+        Accuracy::Tolerance(tolerance) => Rule::for_tolerance(dfg.lobe, tolerance, f32_arithmetic(dfg.lobe)),
     };
     match found {
         Some(rule) if rule.runs_on_device() => Ok(rule),
@@ -137,7 +140,7 @@ fn device_rule(request: &Request) -> std::result::Result<Rule, Complaint> {
         }
         _ => Err(Complaint::new(
             "tolerance",
-            "at least 1e-6, which is what f32 on a device can keep",
+            "one that f32 on a device and its finest rule can keep",
             "a smaller one",
             "use --backend cpu",
         )),

@@ -7,6 +7,8 @@ pub use dfg::{Dfg, DfgChannels};
 use crate::axis::{Axis, Parameter};
 use crate::error::{Error, Result};
 use crate::integrate::ScaleBias;
+use crate::model::Ndf;
+use crate::model::blinn_phong::alpha_of_exponent;
 use crate::table::{Channel, Provenance, Table};
 use crate::units::{Alpha, PerceptualRoughness, word};
 
@@ -41,7 +43,11 @@ impl Lut {
             model: word(dfg.lobe.ndf),
             masking: word(dfg.lobe.masking),
             fresnel: "Schlick: F = F0 + (1 - F0) (1 - v.h)^5",
-            roughness: "alpha = roughness^2",
+            roughness: if dfg.lobe.ndf == Ndf::BlinnPhong {
+                "alpha = roughness^2, exponent n = 2/alpha^2 - 2"
+            } else {
+                "alpha = roughness^2"
+            },
             ..Provenance::default()
         }
     }
@@ -69,15 +75,15 @@ impl Grid {
     /// The grid of two axes, of which one has to be n·v and the other a roughness.
     pub fn new(x: &Axis, y: &Axis) -> Result<Self> {
         match (x.spec.parameter, y.spec.parameter) {
-            (Parameter::Nov, Parameter::Roughness | Parameter::Alpha) => {
+            (Parameter::Nov, Parameter::Roughness | Parameter::Alpha | Parameter::Exponent) => {
                 Ok(Grid { mus: x.values(), alphas: alphas(y)?, transposed: false })
             }
-            (Parameter::Roughness | Parameter::Alpha, Parameter::Nov) => {
+            (Parameter::Roughness | Parameter::Alpha | Parameter::Exponent, Parameter::Nov) => {
                 Ok(Grid { mus: y.values(), alphas: alphas(x)?, transposed: true })
             }
             (a, b) => Err(Error::bad_input(
                 "axes",
-                "nov along one and roughness or alpha along the other",
+                "nov along one and roughness, alpha or exponent along the other",
                 format!("x = {a}, y = {b}"),
                 "name one of each",
             )),
@@ -116,6 +122,7 @@ impl Grid {
 fn alphas(axis: &Axis) -> Result<Vec<f64>> {
     let alpha = |p| match axis.spec.parameter {
         Parameter::Roughness => PerceptualRoughness::new(p).map(|r| Alpha::from(r).get()),
+        Parameter::Exponent => Ok(alpha_of_exponent(libm::exp10(7.0 * p))),
         _ => Ok(p),
     };
     axis.values().into_iter().map(alpha).collect()

@@ -1,10 +1,13 @@
 //! Microfacet models: a distribution of normals, a masking term, Fresnel. Closed forms with their citations, no tables.
 //!
 //! A specular lobe is f(l, v) = F D G / (4 n·l n·v). The integrals need it split otherwise: the distribution as a density
-//! of slopes y = tan(θ_h)/α, which stays smooth as α → 0, and n·l V = G / (4 n·v), which is finite at n·v = 0.
+//! of slopes y = tan(θ_h)/width, which stays smooth as α → 0, and n·l V = G / (4 n·v), which is finite at n·v = 0.
 
 pub mod fresnel;
 pub mod ggx;
+pub mod beckmann;
+pub mod blinn_phong;
+pub mod charlie;
 pub mod masking;
 
 /// The distribution of microfacet normals.
@@ -13,6 +16,14 @@ pub mod masking;
 pub enum Ndf {
     /// Trowbridge and Reitz 1975; Walter et al. 2007, equation 33.
     Ggx,
+    /// Beckmann and Spizzichino 1963, with the exact Smith term.
+    Beckmann,
+    /// Beckmann with the rational Smith term of Walter et al. 2007.
+    BeckmannWalter,
+    /// Blinn 1977, normalised: (n+2)/(2π) (n·h)^n, n = 2/α² - 2; its Smith term is Beckmann's.
+    BlinnPhong,
+    /// Estevez and Kulla 2017, for sheen.
+    Charlie,
 }
 
 /// The masking and shadowing term G.
@@ -25,6 +36,12 @@ pub enum Masking {
     Separable,
     /// Schlick's approximation with k = α/2 (Karis 2013).
     SchlickSmith,
+    /// Unreal Engine's approximation of the height-correlated term of GGX (Hammon 2017).
+    Joint,
+    /// G = n·l n·v (Hoffman 2013).
+    Implicit,
+    /// V = 1/(4 (n·l + n·v - n·l n·v)), for sheen (Neubelt and Pettineo 2013).
+    Neubelt,
 }
 
 /// A distribution of normals with its masking term: everything of a specular lobe but Fresnel.
@@ -38,37 +55,116 @@ pub struct Microfacet {
 
 impl Ndf {
     /// All of them.
-    pub const ALL: [Ndf; 1] = [Ndf::Ggx];
+    pub const ALL: [Ndf; 5] = [Ndf::Ggx, Ndf::Beckmann, Ndf::BeckmannWalter, Ndf::BlinnPhong, Ndf::Charlie];
 
-    /// P = α² P22: the density of the scaled slope y = tan(θ_h)/α, given y²; 2π ∫ y P dy = 1 over y > 0.
-    pub fn slope_density(self, y2: f64) -> f64 {
+    /// The unit of slopes.
+    pub fn width(self, alpha: f64) -> f64 {
+        match self {
+            Ndf::Charlie => charlie::charlie_width(alpha),
+            _ => alpha,
+        }
+    }
+
+    /// P = width² P22: the density of the scaled slope y = tan(θ_h)/width, given y²; 2π ∫ y P dy = 1 over y > 0.
+    pub fn slope_density(self, y2: f64, alpha: f64) -> f64 {
         match self {
             Ndf::Ggx => ggx::ggx_slope_density(y2),
+            Ndf::Beckmann | Ndf::BeckmannWalter => beckmann::beckmann_slope_density(y2),
+            Ndf::BlinnPhong => blinn_phong::blinn_phong_slope_density(y2, alpha),
+            Ndf::Charlie => charlie::charlie_slope_density(y2, alpha),
         }
+    }
+
+    /// The scaled slope beyond which less than exp(-`depth`) of the lobe lies; 1e18 where the tail is a power of y.
+    pub fn slope_end(self, alpha: f64, depth: f64) -> f64 {
+        match self {
+            Ndf::Ggx | Ndf::Charlie => 1e18,
+            Ndf::Beckmann | Ndf::BeckmannWalter => depth.sqrt(),
+            Ndf::BlinnPhong => blinn_phong::blinn_phong_end(alpha, depth),
+        }
+    }
+
+    /// Whether the distribution is a smooth function of the half vector at the normal: sin θ_h to a power is not.
+    pub fn smooth_at_normal(self) -> bool {
+        self != Ndf::Charlie
     }
 
     /// c (1 + 2Λ(c)) for the cosine `c`: what Smith masking needs, finite at c = 0.
     pub fn smith(self, c: f64, alpha: f64) -> f64 {
         match self {
             Ndf::Ggx => ggx::ggx_smith(c, alpha),
+            Ndf::Beckmann | Ndf::BlinnPhong => beckmann::beckmann_smith(c, alpha),
+            Ndf::BeckmannWalter => beckmann::walter_smith(c, alpha),
+            Ndf::Charlie => charlie::charlie_smith(c, alpha),
+        }
+    }
+
+    /// The masking that a lobe has when none is named: the first in each list below.
+    pub fn default_masking(self) -> Masking {
+        self.maskings()[0]
+    }
+
+    /// The masking terms that mean something for the distribution.
+    pub fn maskings(self) -> &'static [Masking] {
+        use Masking::{HeightCorrelated, Implicit, Joint, Neubelt, SchlickSmith, Separable};
+        match self {
+            Ndf::Ggx => &[HeightCorrelated, Separable, SchlickSmith, Joint, Implicit],
+            Ndf::Beckmann => &[HeightCorrelated, Separable, SchlickSmith, Implicit],
+            // It is Beckmann's but for Λ.
+            Ndf::BeckmannWalter => &[HeightCorrelated, Separable],
+            Ndf::BlinnPhong => &[Implicit, HeightCorrelated, Separable],
+            // Height-correlated is the pair that Estevez and Kulla fitted.
+            Ndf::Charlie => &[Neubelt, HeightCorrelated, Implicit],
         }
     }
 }
 
-impl Masking {
-    /// All of them.
-    pub const ALL: [Masking; 3] = [Masking::HeightCorrelated, Masking::Separable, Masking::SchlickSmith];
-}
-
 impl Microfacet {
+    /// Every lobe that means something.
+    pub fn all() -> impl Iterator<Item = Microfacet> {
+        Ndf::ALL.into_iter().flat_map(|ndf| ndf.maskings().iter().map(move |&masking| Microfacet { ndf, masking }))
+    }
+
     /// n·l V(l, v) = G(l, v) / (4 n·v) for n·l = `x` and n·v = `mu`.
     pub fn cosine_visibility(self, x: f64, mu: f64, alpha: f64) -> f64 {
+        use masking::{height_correlated, implicit, joint_smith, neubelt, schlick_smith, separable};
         match self.masking {
-            Masking::HeightCorrelated => {
-                masking::height_correlated(x, mu, self.ndf.smith(x, alpha), self.ndf.smith(mu, alpha))
-            }
-            Masking::Separable => masking::separable(x, mu, self.ndf.smith(x, alpha), self.ndf.smith(mu, alpha)),
-            Masking::SchlickSmith => masking::schlick_smith(x, mu, alpha),
+            Masking::HeightCorrelated => height_correlated(x, mu, self.ndf.smith(x, alpha), self.ndf.smith(mu, alpha)),
+            Masking::Separable => separable(x, mu, self.ndf.smith(x, alpha), self.ndf.smith(mu, alpha)),
+            Masking::SchlickSmith => schlick_smith(x, mu, alpha),
+            Masking::Joint => height_correlated(x, mu, joint_smith(x, alpha), joint_smith(mu, alpha)),
+            Masking::Implicit => implicit(x),
+            Masking::Neubelt => neubelt(x, mu),
+        }
+    }
+
+    /// E(F = 1) in the limit α → 0 at fixed n·v, as a multiple of a mirror's: G of the mirror direction, 0 for sheen.
+    pub fn smooth_limit(self, mu: f64) -> f64 {
+        match (self.ndf, self.masking) {
+            (Ndf::Charlie, _) => 0.0,
+            (_, Masking::Implicit) => mu * mu,
+            _ => 1.0,
+        }
+    }
+
+    /// Whether the albedo grows beyond all bounds as n·v → 0.
+    pub fn diverges_at_grazing(self) -> bool {
+        self == Microfacet { ndf: Ndf::Charlie, masking: Masking::HeightCorrelated }
+    }
+
+    /// Whether the albedo can exceed 1: where the masking term is not that of the distribution's own microsurface.
+    pub fn may_exceed_one(self) -> bool {
+        self.ndf == Ndf::Charlie || (self.ndf == Ndf::BlinnPhong && self.masking != Masking::Implicit)
+    }
+
+    /// The n·l at which the masking term is not smooth.
+    pub fn break_at(self, alpha: f64) -> Option<f64> {
+        let smith = matches!(self.masking, Masking::HeightCorrelated | Masking::Separable);
+        match self.ndf {
+            Ndf::BeckmannWalter if smith => Some(beckmann::walter_break(alpha)),
+            // The two branches of the fit meet here with the same slope.
+            Ndf::Charlie if smith => Some(0.5),
+            _ => None,
         }
     }
 }

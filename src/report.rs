@@ -3,6 +3,7 @@
 use crate::backend::vulkan::devices::DeviceInfo;
 use crate::certify::Deviation;
 use crate::integrate::rule::Rule;
+use crate::lut::{Dfg, Lut};
 use crate::request::Request;
 use serde::Serialize;
 use std::fmt;
@@ -67,10 +68,11 @@ pub struct Report {
 impl Accuracy {
     /// Of a table by `rule` with an arithmetic of that error.
     pub fn new(request: &Request, rule: &Rule, arithmetic: f64, measured: Deviation) -> Self {
+        let Lut::Dfg(Dfg { lobe, .. }) = request.lut;
         Accuracy {
             rule: rule.name,
             evaluations: rule.evaluations(),
-            bound: rule.bound + arithmetic,
+            bound: rule.bound(lobe) + arithmetic,
             measured,
             rounding: request.precision.half_step(),
         }

@@ -2,8 +2,9 @@
 
 use crate::axis::{Axis, AxisSpec, Parameter};
 use crate::error::{Error, Result};
-use crate::integrate::rule::Rule;
+use crate::integrate::rule::{REFERENCE, Rule};
 use crate::lut::{Grid, Lut};
+use crate::model::Microfacet;
 use crate::precision::Precision;
 use crate::units::word;
 use std::fmt;
@@ -39,20 +40,35 @@ impl Request {
     /// Checks that the parts fit together.
     pub fn new(lut: Lut, x: Axis, y: Axis, accuracy: Accuracy, precision: Precision) -> Result<Self> {
         let request = Request { lut, x, y, accuracy, precision };
-        request.grid()?;
+        let Lut::Dfg(dfg) = lut;
+        let grid = request.grid()?;
+        let Microfacet { ndf, masking } = dfg.lobe;
+        if !ndf.maskings().contains(&masking) {
+            let expected = ndf.maskings().iter().map(word).collect::<Vec<_>>().join(", ");
+            let what = format!("masking of {}", word(ndf));
+            return Err(Error::bad_input(what, expected, word(masking), "name one that means something for the model"));
+        }
+        if dfg.lobe.diverges_at_grazing() && grid.mus.contains(&0.0) {
+            let got = "n.v = 0, where this albedo is infinite";
+            return Err(Error::bad_input(
+                "axis of n.v",
+                "n.v > 0",
+                got,
+                "add min=1e-4 to the axis, or choose texel centres",
+            ));
+        }
         match accuracy {
             Accuracy::Tolerance(tolerance) => {
-                if Rule::for_tolerance(tolerance, 0.0).is_none() || tolerance > 0.1 {
+                if Rule::for_tolerance(dfg.lobe, tolerance, 0.0).is_none() || tolerance > 0.1 {
                     return Err(Error::bad_input(
                         "tolerance",
-                        "an absolute error from 1e-13 to 0.1",
-                        tolerance.to_string(),
+                        format!("an absolute error from {:e} to 0.1", REFERENCE.bound(dfg.lobe)),
+                        format!("{tolerance:e}"),
                         "give one in that range",
                     ));
                 }
             }
             Accuracy::Rule(rule) => {
-                let Lut::Dfg(dfg) = lut;
                 if !rule.applies_to(dfg.lobe) {
                     return Err(Error::bad_input(
                         "rule",

@@ -82,4 +82,8 @@ fn one_axis_is_the_view_and_the_other_a_roughness() {
     // Perceptual roughness is squared, alpha is not.
     assert_eq!(grid.alphas, [0.0625, 0.5625]);
     assert_eq!(Grid::new(&view, &alpha).unwrap().alphas, [0.25, 0.75]);
+    // Blinn-Phong's exponent runs from 1 to 1e7 by its logarithm, and α² = 2/(n+2).
+    let exponents = Grid::new(&view, &axis("exponent,edges", 8)).unwrap().alphas;
+    let n = exponents.iter().map(|alpha| 2.0 / (alpha * alpha) - 2.0);
+    assert!(n.enumerate().all(|(i, n)| (n / 10f64.powi(i as i32) - 1.0).abs() < 1e-12));
 }

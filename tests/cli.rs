@@ -97,6 +97,11 @@ fn every_choice_bakes() {
         "--size 1 -o g.exr",
         "--size 1x5 --x nov,edges --y roughness,edges -o h.exr",
         "--tolerance 1e-12 -o i.exr",
+        "--model beckmann --masking separable -o j.exr",
+        "--model beckmann-walter -o k.exr",
+        "--model blinn-phong --y exponent,edges -o l.exr",
+        "--model charlie --channels e -o m.exr",
+        "--model charlie --masking height-correlated --x nov,edges,min=1e-4 --y roughness,min=0.07 -o n.exr",
     ] {
         let size = if flags.contains("--size") { "" } else { "--size 6x5" };
         ok(&folder, &format!("bake --backend cpu {size} {flags}"));
@@ -174,7 +179,11 @@ fn wrong_values_are_refused_with_what_was_expected() {
     refused("bake --tolerance=-1", 4, &["1e-13 to 0.1"]);
     refused("bake --tolerance inf", 4, &["1e-13 to 0.1"]);
     refused("bake --rule simpson", 4, &["h56", "reference", "got 'simpson'"]);
-    refused("bake --model phong", 4, &["ggx", "got 'phong'"]);
+    refused("bake --model phong", 4, &["ggx", "blinn-phong", "got 'phong'"]);
+    refused("bake --model charlie --masking joint", 4, &["neubelt", "got joint"]);
+    refused("bake --model charlie --masking height-correlated --x nov,edges", 4, &["n.v > 0", "min=1e-4"]);
+    refused("bake --model charlie --tolerance 1e-8", 4, &["from 2e-6 to 0.1"]);
+    refused("bake --model beckmann --rule l128", 4, &["begins with h"]);
     refused("bake --lut sheen", 4, &["dfg", "got 'sheen'"]);
     refused("bake --masking none", 4, &["height-correlated", "schlick-smith"]);
     refused("bake --channels rgb", 4, &["ab", "be"]);
@@ -183,7 +192,7 @@ fn wrong_values_are_refused_with_what_was_expected() {
     refused("bake -o table.bmp", 4, &[".exr or .png", "'.bmp'"]);
     refused("bake --format bmp", 4, &[".exr or .png"]);
     refused("bake --x nov --y nov", 4, &["x = nov, y = nov"]);
-    refused("bake --x mu", 4, &["nov, roughness or alpha", "got 'mu'"]);
+    refused("bake --x mu", 4, &["nov, roughness, alpha or exponent", "got 'mu'"]);
     refused("bake --y roughness,offset=1e-9", 4, &["texel 0", "raise the axis's min"]);
     refused("bake --threads 0", 4, &["1 to 1024"]);
     refused("bake --backend metal", 4, &["auto, vulkan or cpu"]);

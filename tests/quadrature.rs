@@ -3,11 +3,11 @@
 
 mod common;
 
-use common::{domain, ggx};
+use common::domain_of;
 use rayon::prelude::*;
 use splitsum::integrate::ScaleBias;
 use splitsum::integrate::rule::{Method, REFERENCE, RULES, Rule};
-use splitsum::model::{Masking, Microfacet};
+use splitsum::model::{Microfacet, Ndf};
 use splitsum::quadrature::double_exponential::{half_line, tanh_sinh};
 use splitsum::quadrature::gauss_legendre::{gauss_legendre, half_gauss};
 use splitsum::quadrature::slope_map::{Power, slope_at, slope_interval};
@@ -85,12 +85,12 @@ fn double_exponential_integrates_singular_endpoints() {
     assert!((line - FRAC_PI_2).abs() < 1e-14);
 }
 
-/// The largest error of A and of B by `rule` over `points`; NaN counts as infinite.
+/// The largest error of A and of B by `rule` over `points`, relative to albedos above 1; NaN counts as infinite.
 fn worst(lobe: Microfacet, rule: &Rule, points: &[(f64, f64)], truth: &[ScaleBias]) -> (f64, (f64, f64)) {
     let integrator = rule.integrator();
     let error = |(&(mu, alpha), truth): (&(f64, f64), &ScaleBias)| {
         let value = integrator.integrate(lobe, mu, alpha);
-        let error = (value.a - truth.a).abs().max((value.b - truth.b).abs());
+        let error = (value.a - truth.a).abs().max((value.b - truth.b).abs()) / truth.e().max(1.0);
         let sound = value.a.is_finite() && value.b.is_finite();
         (if sound { error } else { f64::INFINITY }, (mu, alpha))
     };
@@ -99,32 +99,26 @@ fn worst(lobe: Microfacet, rule: &Rule, points: &[(f64, f64)], truth: &[ScaleBia
 }
 
 #[test]
-fn every_rule_keeps_its_bound_over_the_whole_domain() {
-    let points = domain(1500);
-    for lobe in Masking::ALL.map(ggx) {
+fn every_rule_keeps_its_bound_over_the_whole_domain_and_no_bound_is_idle() {
+    // A bound a hundred times too large would hide a broken rule: with some masking each rule errs by a twentieth of its own.
+    // Charlie's are left out of that: its reference is no sharper than its finer rules.
+    let mut largest = std::collections::HashMap::new();
+    for lobe in Microfacet::all() {
+        let points = domain_of(lobe, if lobe.ndf == Ndf::Ggx { 900 } else { 300 });
         let reference = REFERENCE.integrator();
         let truth: Vec<_> = points.par_iter().map(|&(mu, alpha)| reference.integrate(lobe, mu, alpha)).collect();
         for rule in RULES.iter().filter(|rule| rule.applies_to(lobe)) {
-            let (error, at) = worst(lobe, rule, &points, &truth);
-            assert!(error <= rule.bound, "{} of {lobe:?}: {error:e} at {at:?}, {:e} promised", rule.name, rule.bound);
+            let ((error, at), bound) = (worst(lobe, rule, &points, &truth), rule.bound(lobe));
+            assert!(error <= bound, "{} of {lobe:?}: {error:e} at {at:?}, {bound:e} promised", rule.name);
+            let known: &mut f64 = largest.entry((lobe.ndf as usize, rule.name)).or_insert(0.0);
+            *known = known.max(error / bound);
         }
-        let finer = REFERENCE.yardstick();
-        let few = &points[..200];
-        let (error, at) = worst(lobe, &finer, few, &truth);
-        assert!(error <= REFERENCE.bound, "the reference moves by {error:e} at {at:?} when refined");
+        let (error, at) = worst(lobe, &REFERENCE.yardstick(), &points[..100], &truth);
+        assert!(error <= REFERENCE.bound(lobe), "the reference of {lobe:?} moves by {error:e} at {at:?} when refined");
     }
-}
-
-#[test]
-fn bounds_are_not_idle() {
-    // A bound a hundred times too large would hide a broken rule: each rule errs by at least a twentieth of its own.
-    let points = domain(1500);
-    let lobe = ggx(Masking::HeightCorrelated);
-    let reference = REFERENCE.integrator();
-    let truth: Vec<_> = points.par_iter().map(|&(mu, alpha)| reference.integrate(lobe, mu, alpha)).collect();
-    for rule in RULES.iter().filter(|rule| **rule != REFERENCE) {
-        let (error, _) = worst(lobe, rule, &points, &truth);
-        assert!(error >= rule.bound / 20.0, "{} errs by {error:e} only, {:e} promised", rule.name, rule.bound);
+    for ((ndf, rule), share) in largest {
+        let exempt = rule == REFERENCE.name || ndf == Ndf::Charlie as usize;
+        assert!(exempt || share >= 0.05, "{rule} of {:?} errs by {share} of its bound only", Ndf::ALL[ndf]);
     }
 }
 
@@ -136,11 +130,11 @@ fn two_formulas_agree_over_a_dense_grid() {
         .map(|i| (f64::from(i % 64) / 63.0, (f64::from(i / 64) + 1.0) / 64.0))
         .map(|(mu, r)| (mu, r * r))
         .collect();
-    for lobe in Masking::ALL.map(ggx) {
+    for lobe in Microfacet::all().filter(|lobe| l.applies_to(*lobe)) {
         let integrator = h.integrator();
         let truth: Vec<_> = grid.par_iter().map(|&(mu, alpha)| integrator.integrate(lobe, mu, alpha)).collect();
         let (error, at) = worst(lobe, &l, &grid, &truth);
-        assert!(error <= h.bound + l.bound, "{lobe:?}: {error:e} at {at:?}");
+        assert!(error <= h.bound(lobe) + l.bound(lobe), "{lobe:?}: {error:e} at {at:?}");
     }
 }
 
@@ -148,9 +142,12 @@ fn two_formulas_agree_over_a_dense_grid() {
 fn rules_stand_in_order_of_cost_and_a_tolerance_takes_the_cheapest() {
     let cost = |rule: &Rule| rule.evaluations().unwrap_or(usize::MAX);
     let by_tolerance: Vec<_> = RULES.iter().filter(|rule| !matches!(rule.method, Method::LSpace(_))).collect();
-    assert!(by_tolerance.windows(2).all(|pair| cost(pair[0]) < cost(pair[1]) && pair[0].bound > pair[1].bound));
-    for rule in by_tolerance {
-        assert_eq!(Rule::for_tolerance(rule.bound, 0.0).unwrap().name, rule.name);
+    for lobe in Microfacet::all() {
+        let sharper = |pair: &[&Rule]| cost(pair[0]) < cost(pair[1]) && pair[0].bound(lobe) > pair[1].bound(lobe);
+        assert!(by_tolerance.windows(2).all(sharper), "{lobe:?}");
+        for rule in &by_tolerance {
+            assert_eq!(Rule::for_tolerance(lobe, rule.bound(lobe), 0.0).unwrap().name, rule.name);
+        }
+        assert!(Rule::for_tolerance(lobe, 1e-14, 0.0).is_none() && Rule::for_tolerance(lobe, f64::NAN, 0.0).is_none());
     }
-    assert!(Rule::for_tolerance(1e-14, 0.0).is_none() && Rule::for_tolerance(f64::NAN, 0.0).is_none());
 }

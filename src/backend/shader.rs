@@ -9,10 +9,18 @@ use naga::valid::{Capabilities, ShaderStages, SubgroupOperationSet, ValidationFl
 
 /// The WGSL modules.
 pub mod wgsl {
+    /// Twin of `special`.
+    pub const SPECIAL: &str = include_str!("../../shaders/special.wgsl");
     /// Twin of `model::fresnel`.
     pub const FRESNEL: &str = include_str!("../../shaders/fresnel.wgsl");
     /// Twin of `model::ggx`.
     pub const GGX: &str = include_str!("../../shaders/ggx.wgsl");
+    /// Twin of `model::beckmann`.
+    pub const BECKMANN: &str = include_str!("../../shaders/beckmann.wgsl");
+    /// Twin of `model::blinn_phong`.
+    pub const BLINN_PHONG: &str = include_str!("../../shaders/blinn_phong.wgsl");
+    /// Twin of `model::charlie`.
+    pub const CHARLIE: &str = include_str!("../../shaders/charlie.wgsl");
     /// Twin of `model::masking`.
     pub const MASKING: &str = include_str!("../../shaders/masking.wgsl");
     /// Twin of `quadrature::slope_map`.
@@ -40,13 +48,31 @@ pub struct Kernel {
 
 /// The WGSL that integrates a lobe: every function but an entry point.
 pub fn lobe_source(lobe: Microfacet, power: Power) -> String {
-    let (density, smith) = match lobe.ndf {
-        Ndf::Ggx => ("ggx_slope_density(y2)", "ggx_smith(c, alpha)"),
+    // Tails are cut where exp(-20) = 2e-9 of a lobe lies beyond; a slope of 1e9 squares to far less than f32 holds.
+    let (width, end, density, smith) = match lobe.ndf {
+        Ndf::Ggx => ("alpha", "1e9", "ggx_slope_density(y2)", "ggx_smith(c, alpha)"),
+        Ndf::Beckmann => ("alpha", "4.47", "beckmann_slope_density(y2)", "beckmann_smith(c, alpha)"),
+        Ndf::BeckmannWalter => ("alpha", "4.47", "beckmann_slope_density(y2)", "walter_smith(c, alpha)"),
+        Ndf::BlinnPhong => (
+            "alpha",
+            "blinn_phong_end(alpha, 20.0)",
+            "blinn_phong_slope_density(y2, alpha)",
+            "beckmann_smith(c, alpha)",
+        ),
+        Ndf::Charlie => ("charlie_width(alpha)", "1e9", "charlie_slope_density(y2, alpha)", "charlie_smith(c, alpha)"),
     };
     let visibility = match lobe.masking {
         Masking::HeightCorrelated => "height_correlated(x, mu, smith(x, alpha), smith(mu, alpha))",
         Masking::Separable => "separable(x, mu, smith(x, alpha), smith(mu, alpha))",
         Masking::SchlickSmith => "schlick_smith(x, mu, alpha)",
+        Masking::Joint => "height_correlated(x, mu, joint_smith(x, alpha), joint_smith(mu, alpha))",
+        Masking::Implicit => "implicit(x)",
+        Masking::Neubelt => "neubelt(x, mu)",
+    };
+    let limit = match (lobe.ndf, lobe.masking) {
+        (Ndf::Charlie, _) => "0.0",
+        (_, Masking::Implicit) => "mu * mu",
+        _ => "1.0",
     };
     let power = match power {
         Power::Two => 2,
@@ -54,12 +80,16 @@ pub fn lobe_source(lobe: Microfacet, power: Power) -> String {
     };
     let glue = format!(
         "const POWER = {power}u;
-fn slope_density(y2: f32) -> f32 {{ return {density}; }}
+fn slope_width(alpha: f32) -> f32 {{ return {width}; }}
+fn slope_end(alpha: f32) -> f32 {{ return {end}; }}
+fn slope_density(y2: f32, alpha: f32) -> f32 {{ return {density}; }}
 fn smith(c: f32, alpha: f32) -> f32 {{ return {smith}; }}
 fn cosine_visibility(x: f32, mu: f32, alpha: f32) -> f32 {{ return {visibility}; }}
+fn smooth_limit(mu: f32) -> f32 {{ return {limit}; }}
 "
     );
-    [wgsl::FRESNEL, wgsl::GGX, wgsl::MASKING, wgsl::SLOPE_MAP, wgsl::H_SPACE, wgsl::INTEGRATE, &glue].join("\n")
+    let models = [wgsl::FRESNEL, wgsl::GGX, wgsl::BECKMANN, wgsl::BLINN_PHONG, wgsl::CHARLIE, wgsl::MASKING].join("\n");
+    [wgsl::SPECIAL, &models, wgsl::SLOPE_MAP, wgsl::H_SPACE, wgsl::INTEGRATE, &glue].join("\n")
 }
 
 /// The shader that bakes (A, B) of a lobe.

@@ -5,7 +5,7 @@ use crate::encode::Format;
 use crate::error::{Error, Result};
 use crate::integrate::rule::Rule;
 use crate::lut::{Dfg, Lut};
-use crate::model::Microfacet;
+use crate::model::{Microfacet, Ndf};
 use crate::precision::Precision;
 use crate::request::{Accuracy, DEFAULT_SIZE, Request};
 use serde::{Deserialize, de::DeserializeOwned};
@@ -19,11 +19,14 @@ pub struct TableArgs {
     /// Family of tables: dfg, the split sum's E(F0) = F0*A + B (Karis 2013) [default: dfg]
     #[arg(long, value_name = "NAME")]
     pub lut: Option<String>,
-    /// Distribution of normals: ggx (Walter et al. 2007) [default: ggx]
+    /// Distribution of normals: ggx (Walter et al. 2007), beckmann (with the exact Smith term), beckmann-walter (with
+    /// Walter's rational one), blinn-phong (n = 2/alpha^2 - 2; Blinn 1977), charlie (sheen; Estevez and Kulla 2017)
+    /// [default: ggx]
     #[arg(long, value_name = "NAME")]
     pub model: Option<String>,
-    /// Masking: height-correlated or separable (Smith; Heitz 2014), schlick-smith (k = alpha/2; Karis 2013)
-    /// [default: height-correlated]
+    /// Masking: height-correlated or separable (Smith; Heitz 2014), schlick-smith (k = alpha/2; Karis 2013), joint
+    /// (Unreal's approximation; Hammon 2017), implicit (G = n.l n.v), neubelt (for charlie; 2013) [default:
+    /// height-correlated; implicit for blinn-phong, neubelt for charlie]
     #[arg(long, value_name = "NAME")]
     pub masking: Option<String>,
     /// Channels: ab (scale, bias), be (bias, E = A + B: the multiple-scattering packing), e (E alone) [default: ab]
@@ -32,7 +35,7 @@ pub struct TableArgs {
     /// Columns x rows, each 1 to 16384; one number for a square [default: 128]
     #[arg(long, value_name = "N|WxH")]
     pub size: Option<Size>,
-    /// What runs along a row, for example nov,sqrt,edges: PARAMETER nov, roughness (perceptual) or alpha; then, where
+    /// What runs along a row, for example nov,sqrt,edges: PARAMETER nov, roughness (perceptual), alpha or exponent (n = 10^(7p), Blinn-Phong's); then, where
     /// they differ from linear,centres: MAPPING linear, sqrt (t = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES
     /// centres, edges (i/(N-1)) or offset=X ((i+X)/N); flip; min=X [default: nov]
     #[arg(long, value_name = "AXIS")]
@@ -102,10 +105,9 @@ impl TableArgs {
         if name != "dfg" {
             return Err(Error::bad_input("lut", "dfg", format!("'{name}'"), "name one of these"));
         }
-        let lobe = Microfacet {
-            ndf: choice("model", self.model.as_deref().unwrap_or("ggx"))?,
-            masking: choice("masking", self.masking.as_deref().unwrap_or("height-correlated"))?,
-        };
+        let ndf: Ndf = choice("model", self.model.as_deref().unwrap_or("ggx"))?;
+        let masking = self.masking.as_deref().map_or(Ok(ndf.default_masking()), |name| choice("masking", name))?;
+        let lobe = Microfacet { ndf, masking };
         Ok(Lut::Dfg(Dfg { lobe, channels: choice("channels", self.channels.as_deref().unwrap_or("ab"))? }))
     }
 
@@ -115,7 +117,7 @@ impl TableArgs {
         let x = spec(&self.x)?;
         let y = spec(&self.y)?;
         let other = |axis: Option<AxisSpec>| match axis.map(|axis| axis.parameter) {
-            Some(Parameter::Roughness | Parameter::Alpha) => Parameter::Nov,
+            Some(Parameter::Roughness | Parameter::Alpha | Parameter::Exponent) => Parameter::Nov,
             _ => Parameter::Roughness,
         };
         let x = x.unwrap_or_else(|| match y.map(|y| y.parameter) {

@@ -1,7 +1,7 @@
 //! The integral over half vectors, split where the reflected ray meets the horizon. It takes any isotropic distribution
 //! and any masking term, with + - × ÷ √ alone: this is what a device runs.
 //!
-//! With τ = tan θ_h = α y, t = τ², and φ the azimuth of h from the plane of v:
+//! With τ = tan θ_h = width · y, t = τ², and φ the azimuth of h from the plane of v:
 //!
 //! n·l = x = m + s cos φ, m = μ(1-t)/(1+t), s = 2 sin θ_v τ/(1+t); v·h = (x+μ) √(1+t) / 2;
 //!
@@ -14,7 +14,7 @@ use super::ScaleBias;
 use crate::model::Microfacet;
 use crate::model::fresnel::schlick_weight;
 use crate::quadrature::gauss_legendre::{Node, gauss_legendre, half_gauss};
-use crate::quadrature::slope_map::{MappedSlope, Power, slope_at, slope_interval};
+use crate::quadrature::slope_map::{Power, slope_at, slope_interval};
 use std::f64::consts::PI;
 
 /// How many nodes: `radial` × `azimuth` on the full circle, `radial_horizon` × `azimuth_horizon` on the cut one.
@@ -47,8 +47,8 @@ pub struct HSpaceNodes {
     pub power: Power,
 }
 
-/// Scaled slopes beyond this carry less than 1e-18 of any lobe.
-pub const SLOPE_END: f64 = 1e18;
+/// Slopes are cut off where what lies beyond is exp(-40) = 4e-18 of a lobe.
+pub const TAIL_DEPTH: f64 = 40.0;
 
 impl HSpaceRule {
     /// Evaluations of the integrand for a texel.
@@ -74,33 +74,35 @@ impl HSpaceRule {
 pub fn h_space(lobe: Microfacet, mu: f64, alpha: f64, nodes: &HSpaceNodes) -> ScaleBias {
     let sv = ((1.0 - mu) * (1.0 + mu)).sqrt();
     let t1 = mu / (1.0 + sv);
-    let y1 = (t1 / alpha).min(SLOPE_END);
-    let y2 = if t1 * alpha * SLOPE_END > 1.0 { 1.0 / (t1 * alpha) } else { SLOPE_END };
+    let width = lobe.ndf.width(alpha);
+    let end = lobe.ndf.slope_end(alpha, TAIL_DEPTH);
+    let y1 = (t1 / width).min(end);
+    let y2 = if t1 * width * end > 1.0 { 1.0 / (t1 * width) } else { end };
     let below = slope_interval(0.0, y1, nodes.power);
     let beyond = slope_interval(y1, y2, nodes.power);
     let mut sum = ScaleBias::default();
     if mu > 0.0 {
         for node in &nodes.radial {
             let slope = slope_at(node.at, below, nodes.power);
-            let ring = ring(mu, sv, alpha * slope.y);
+            let ring = ring(mu, sv, width * slope.y);
             let part = full_circle(lobe, mu, alpha, ring, &nodes.azimuth);
-            sum.add(radial_weight(lobe, node.weight, slope, ring.secant2), part);
+            sum.add(radial_weight(lobe, alpha, node.weight * slope.dy, slope.y) * ring.secant2, part);
         }
     }
     if sv > 0.0 {
         for node in &nodes.radial_horizon {
             let slope = slope_at(node.at, beyond, nodes.power);
-            let ring = ring(mu, sv, alpha * slope.y);
+            let ring = ring(mu, sv, width * slope.y);
             let part = cut_circle(lobe, mu, alpha, ring, &nodes.azimuth_horizon);
-            sum.add(radial_weight(lobe, node.weight, slope, ring.secant2), part);
+            sum.add(radial_weight(lobe, alpha, node.weight * slope.dy, slope.y) * ring.secant2, part);
         }
     }
     sum
 }
 
-/// What a radial node weighs.
-pub fn radial_weight(lobe: Microfacet, node_weight: f64, slope: MappedSlope, secant2: f64) -> f64 {
-    node_weight * slope.dy * slope.y * lobe.ndf.slope_density(slope.y * slope.y) * secant2
+/// What a radial node weighs, but for 1/cos² θ_h: y P(y) times its weight in y.
+pub fn radial_weight(lobe: Microfacet, alpha: f64, weight: f64, y: f64) -> f64 {
+    weight * (y * lobe.ndf.slope_density(y * y, alpha))
 }
 
 /// The half vectors of one slope: n·l = `m` + `s` cos φ.

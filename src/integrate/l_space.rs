@@ -70,9 +70,10 @@ impl LSpaceRule {
     }
 }
 
-/// Whether the formula holds for a lobe: its azimuth integral is that of GGX.
+/// Whether the formula serves for a lobe: its azimuth integral is that of GGX, and the layer that it subtracts that of the
+/// height-correlated term, which the joint approximation has in another form.
 pub fn l_space_applies(lobe: Microfacet) -> bool {
-    lobe.ndf == Ndf::Ggx
+    lobe.ndf == Ndf::Ggx && lobe.masking != Masking::Joint
 }
 
 /// (A, B) of a GGX lobe at n·v = `mu` in [0, 1] and `alpha` in (0, 1].

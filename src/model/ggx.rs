@@ -14,7 +14,7 @@ pub fn ggx_d(t: f64, alpha: f64) -> f64 {
     a2 / PI * ratio * ratio
 }
 
-/// α² P22 at the squared scaled slope y² = (tan(θ_h)/α)²: 1 / (π (1+y²)²) (Heitz 2014, equation 84).
+/// α² P22 at the squared scaled slope y² = (tan(θ_h)/α)²: 1 / (π (1+y²)²) (Heitz 2014, section 5).
 pub fn ggx_slope_density(y2: f64) -> f64 {
     let r = 1.0 / (1.0 + y2);
     FRAC_1_PI * r * r

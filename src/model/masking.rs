@@ -19,3 +19,19 @@ pub fn schlick_smith(x: f64, mu: f64, alpha: f64) -> f64 {
     let k1 = 1.0 - k;
     0.25 / (mu * k1 + k) * (x / (x * k1 + k))
 }
+
+/// The joint approximation of Unreal Engine: height-correlated Smith with c(1-α) + α for c (1 + 2Λ(c)) of GGX (Hammon 2017,
+/// "PBR Diffuse Lighting for GGX+Smith Microsurfaces"; `Vis_SmithJointApprox`). The result is that term.
+pub fn joint_smith(c: f64, alpha: f64) -> f64 {
+    c * (1.0 - alpha) + alpha
+}
+
+/// The implicit term: G = n·l n·v, so that V = 1/4 (Hoffman 2013). With any distribution.
+pub fn implicit(x: f64) -> f64 {
+    0.25 * x
+}
+
+/// The visibility of velvet: V = 1 / (4 (n·l + n·v - n·l n·v)) (Neubelt and Pettineo 2013, after Ashikhmin 2007).
+pub fn neubelt(x: f64, mu: f64) -> f64 {
+    0.25 * x / (x + mu - x * mu)
+}

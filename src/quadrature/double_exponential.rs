@@ -31,6 +31,18 @@ pub fn tanh_sinh(n: usize) -> Vec<DeNode> {
         .collect()
 }
 
+/// Nodes and weights for ∫_0^∞ f(z) dz of an f that is not smooth at 0: z = exp(π/2 sinh s), the trapezoid rule in s.
+pub fn half_line_with_cusp(n: usize, limit: f64) -> Vec<(f64, f64)> {
+    let step = 2.0 * limit / (n as f64 - 1.0);
+    (0..n)
+        .map(|i| {
+            let s = -limit + step * i as f64;
+            let z = libm::exp(FRAC_PI_2 * libm::sinh(s));
+            (z, step * FRAC_PI_2 * libm::cosh(s) * z)
+        })
+        .collect()
+}
+
 /// Nodes and weights for ∫_0^∞ f(z) dz of an even f with poles near ±i: z = sinh(π/2 sinh s), the trapezoid rule in s > 0
 /// with half a weight at 0. `limit` is the last s.
 pub fn half_line(n: usize, limit: f64) -> Vec<(f64, f64)> {

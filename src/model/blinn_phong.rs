@@ -1,0 +1,26 @@
+//! Blinn-Phong: D = (n+2)/(2π) (n·h)^n, with α² = 2/(n+2), so that it tends to Beckmann's as n grows.
+//!
+//! Blinn 1977; the normalisation: Walter et al. 2007, equation 30; Hoffman, "Physically Based Shading Models", 2013.
+
+use crate::special::{exponential, log1p_ratio};
+use std::f64::consts::FRAC_1_PI;
+
+/// α² P22 at the squared scaled slope y²: with t = α² y², (1+t)^-(n+4)/2 / π and (n+4)/2 = 1/α² + 1.
+///
+/// (n·h)^n as a power of a cosine near 1 loses every digit at large n; -y² ln(1+t)/t - ln(1+t) as the exponent does not.
+pub fn blinn_phong_slope_density(y2: f64, alpha: f64) -> f64 {
+    let t = alpha * alpha * y2;
+    FRAC_1_PI * exponential(-(y2 + t) * log1p_ratio(t))
+}
+
+/// α of the exponent n: α² = 2/(n+2).
+pub fn alpha_of_exponent(n: f64) -> f64 {
+    (2.0 / (n + 2.0)).sqrt()
+}
+
+/// The y beyond which less than exp(-`depth`) of the lobe lies: where the density has fallen to exp(-(1+3α²) `depth`) of
+/// its peak, since at large α its tail is a power of y, which n·l V makes one degree flatter at grazing.
+pub fn blinn_phong_end(alpha: f64, depth: f64) -> f64 {
+    let a2 = alpha * alpha;
+    (libm::expm1(depth * (1.0 + 3.0 * a2) / (1.0 + a2) * a2) / a2).sqrt()
+}

@@ -1,0 +1,40 @@
+//! Charlie, the distribution of fibres for sheen: D = (2 + 1/α) sin(θ_h)^(1/α) / (2π).
+//!
+//! Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", 2017; α = r² as in Filament and glTF.
+
+use crate::special::{exponential, log1p_ratio, logarithm};
+use std::f64::consts::FRAC_2_PI;
+
+/// The unit of slopes, 1/(2√α): where a lobe of small α has its ring.
+pub fn charlie_width(alpha: f64) -> f64 {
+    0.5 / alpha.sqrt()
+}
+
+/// P22/(4α) at the squared slope y² in units of [`charlie_width`]: with t = y²/(4α), D cos⁴ θ_h is
+/// (2/π)(1 + 2α) exp(-(2/y²) ln(1+1/t) t) / (4α + y²)².
+pub fn charlie_slope_density(y2: f64, alpha: f64) -> f64 {
+    let (y2, a4) = (y2.max(1e-30), 4.0 * alpha);
+    let scale = a4 + y2;
+    FRAC_2_PI * (1.0 + 2.0 * alpha) * exponential(-2.0 / y2 * log1p_ratio(a4 / y2)) / (scale * scale)
+}
+
+/// c (1 + 2Λ(c)) with the Λ that Estevez and Kulla fitted (their roughness is the α of D).
+/// It falls to 0 with c (to 1e-30 of it, so that it can divide), and the lobe's albedo diverges like 1/n·v.
+pub fn charlie_smith(c: f64, alpha: f64) -> f64 {
+    let lambda = if c < 0.5 {
+        exponential(charlie_fit(c, alpha))
+    } else {
+        exponential(2.0 * charlie_fit(0.5, alpha) - charlie_fit(1.0 - c, alpha))
+    };
+    c.max(1e-30) * (1.0 + 2.0 * lambda)
+}
+
+/// L(x) = a/(1 + b x^c) + d x + e, the parameters between those of α = 0 and α = 1 by (1-α)² (their table of the fit).
+pub fn charlie_fit(x: f64, alpha: f64) -> f64 {
+    let s = 1.0 - alpha;
+    let mix = |smooth: f64, rough: f64| rough + s * s * (smooth - rough);
+    let power = if x > 0.0 { exponential(mix(0.16801, 0.19823) * logarithm(x)) } else { 0.0 };
+    mix(25.3245, 21.5473) / (1.0 + mix(3.32435, 3.82987) * power)
+        + mix(-1.27393, -1.97760) * x
+        + mix(-4.85967, -4.32054)
+}

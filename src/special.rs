@@ -1,0 +1,29 @@
+//! Special functions of the models. In f64 they come from libm, the same bits everywhere; their twins on a device use
+//! only + - × ÷, since a driver's own exp and log may be off by dozens of ulps.
+
+use std::f64::consts::PI;
+
+/// exp(x).
+pub fn exponential(x: f64) -> f64 {
+    libm::exp(x)
+}
+
+/// ln x, for x > 0.
+pub fn logarithm(x: f64) -> f64 {
+    libm::log(x)
+}
+
+/// ln(1+u)/u for u ≥ 0, 1 at u = 0.
+pub fn log1p_ratio(u: f64) -> f64 {
+    if u == 0.0 { 1.0 } else { libm::log1p(u) / u }
+}
+
+/// i¹erfc(a) = exp(-a²)/√π - a erfc(a), the integral of erfc from a ≥ 0 to ∞ (Abramowitz and Stegun, 7.2.1).
+pub fn ierfc(a: f64) -> f64 {
+    libm::exp(-a * a) / PI.sqrt() - a * libm::erfc(a)
+}
+
+/// atanh(s)/s by the square of s.
+pub fn atanh_ratio(s2: f64) -> f64 {
+    if s2 == 0.0 { 1.0 } else { libm::atanh(s2.sqrt()) / s2.sqrt() }
+}

@@ -1,0 +1,150 @@
+//! Every WGSL function of a model alone against its f64 twin, as tests/vulkan/twins.rs does it.
+
+use crate::twins::{Twin, small, unit};
+use splitsum::model::beckmann::{beckmann_slope_density, beckmann_smith, beckmann_width, walter_smith};
+use splitsum::model::blinn_phong::{blinn_phong_end, blinn_phong_slope_density};
+use splitsum::model::charlie::{charlie_fit, charlie_slope_density, charlie_smith, charlie_width};
+use splitsum::model::fresnel::schlick_weight;
+use splitsum::model::ggx::{ggx_slope_density, ggx_smith};
+use splitsum::model::masking::{height_correlated, implicit, joint_smith, neubelt, schlick_smith, separable};
+use splitsum::special::{atanh_ratio, exponential, ierfc, log1p_ratio, logarithm};
+
+pub fn twins() -> Vec<Twin> {
+    let four = |f: fn([f64; 4]) -> f64| move |a| [f(a), 0.0, 0.0, 0.0];
+    let three = |random: &mut crate::common::Random| [small(random), small(random), small(random), small(random)];
+    vec![
+        Twin {
+            name: "schlick_weight",
+            wgsl: "vec4(schlick_weight(p.x), 0.0, 0.0, 0.0)",
+            rust: Box::new(four(|a| schlick_weight(a[0]))),
+            arguments: |random| [unit(random), 0.0, 0.0, 0.0],
+            // 1 - x is exact to an ulp of 1, and its fifth power five times as far off.
+            ulps: 8.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "ggx_slope_density",
+            wgsl: "vec4(ggx_slope_density(p.x), 0.0, 0.0, 0.0)",
+            rust: Box::new(four(|a| ggx_slope_density(a[0]))),
+            arguments: |random| [1e6 * small(random) * small(random), 0.0, 0.0, 0.0],
+            ulps: 9.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "ggx_smith",
+            wgsl: "vec4(ggx_smith(p.x, p.y), 0.0, 0.0, 0.0)",
+            rust: Box::new(four(|a| ggx_smith(a[0], a[1]))),
+            arguments: three,
+            ulps: 5.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "height_correlated, separable, schlick_smith",
+            wgsl: "vec4(height_correlated(p.x, p.y, p.z, p.w), separable(p.x, p.y, p.z, p.w), schlick_smith(p.x, p.y, p.z), 0.0)",
+            rust: Box::new(|[x, mu, sx, smu]| {
+                [height_correlated(x, mu, sx, smu), separable(x, mu, sx, smu), schlick_smith(x, mu, sx), 0.0]
+            }),
+            arguments: three,
+            ulps: 12.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "exponential",
+            wgsl: "vec4(exponential(p.x), exponential(-p.x), 0.0, 0.0)",
+            rust: Box::new(|a| [exponential(a[0]), exponential(-a[0]), 0.0, 0.0]),
+            arguments: |random| [-80.0 * small(random), 0.0, 0.0, 0.0],
+            ulps: 3.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "atanh_ratio, logarithm, log1p_ratio",
+            wgsl: "vec4(atanh_ratio(p.x), logarithm(p.y), log1p_ratio(p.y), log1p_ratio(p.x))",
+            rust: Box::new(|a| [atanh_ratio(a[0]), logarithm(a[1]), log1p_ratio(a[1]), log1p_ratio(a[0])]),
+            arguments: |random| [small(random) / 9.0, 2.0 + 1e6 * small(random), 0.0, 0.0],
+            ulps: 7.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "ierfc",
+            wgsl: "vec4(ierfc(p.x), 0.0, 0.0, 0.0)",
+            rust: Box::new(four(|a| ierfc(a[0]))),
+            arguments: |random| [7.0 * unit(random), 0.0, 0.0, 0.0],
+            // The fit is within 1e-8, and beyond 4 the f64 form itself cancels.
+            ulps: 3.0,
+            scale: 0.25,
+        },
+        Twin {
+            name: "beckmann_slope_density, beckmann_width",
+            wgsl: "vec4(beckmann_slope_density(p.x), beckmann_width(p.y, p.z), 0.0, 0.0)",
+            rust: Box::new(|a| [beckmann_slope_density(a[0]), beckmann_width(a[1], a[2]), 0.0, 0.0]),
+            arguments: |random| [20.0 * unit(random), unit(random), small(random), 0.0],
+            ulps: 5.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "beckmann_smith",
+            wgsl: "vec4(beckmann_smith(p.x, p.y), 0.0, 0.0, 0.0)",
+            rust: Box::new(four(|a| beckmann_smith(a[0], a[1]))),
+            arguments: three,
+            ulps: 6.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "walter_smith",
+            wgsl: "vec4(walter_smith(p.x, p.y), 0.0, 0.0, 0.0)",
+            rust: Box::new(four(|a| walter_smith(a[0], a[1]))),
+            // Away from its jump, on whose side a rounding decides.
+            arguments: |random| {
+                let (c, alpha) = (small(random), small(random));
+                let a = c / beckmann_width(c, alpha);
+                [if (a - 1.6).abs() < 1e-3 { 0.5 * c } else { c }, alpha, 0.0, 0.0]
+            },
+            ulps: 8.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "blinn_phong_slope_density",
+            wgsl: "vec4(blinn_phong_slope_density(p.x, p.y), 0.0, 0.0, 0.0)",
+            rust: Box::new(four(|a| blinn_phong_slope_density(a[0], a[1]))),
+            arguments: |random| [20.0 * unit(random), small(random), 0.0, 0.0],
+            // The exponent, up to 20, is rounded five times, and that is an error of the power.
+            ulps: 60.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "blinn_phong_end",
+            wgsl: "vec4(blinn_phong_end(p.x, 20.0), 0.0, 0.0, 0.0)",
+            rust: Box::new(four(|a| blinn_phong_end(a[0], 20.0))),
+            arguments: three,
+            // (e^u - 1)/u loses up to 1/u = 10 of its ulps; its series leaves out u⁴/120 = 8e-7. At α = 1, u is 40.
+            ulps: 120.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "charlie_width, charlie_slope_density",
+            wgsl: "vec4(charlie_width(p.x), charlie_slope_density(p.y, p.x), 0.0, 0.0)",
+            rust: Box::new(|a| [charlie_width(a[0]), charlie_slope_density(a[1], a[0]), 0.0, 0.0]),
+            arguments: |random| [small(random), 0.1 + 1e4 * small(random), 0.0, 0.0],
+            // As for Blinn-Phong: the exponent is up to 20.
+            ulps: 60.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "charlie_fit, charlie_smith",
+            wgsl: "vec4(charlie_fit(p.x, p.y), charlie_smith(p.z, p.y), 0.0, 0.0)",
+            rust: Box::new(|a| [charlie_fit(a[0], a[1]), charlie_smith(a[2], a[1]), 0.0, 0.0]),
+            arguments: |random| [0.5 * small(random), small(random), small(random), 0.0],
+            // The fit is a sum of numbers up to 25, and an error of it is one of the power.
+            ulps: 50.0,
+            scale: 1.0,
+        },
+        Twin {
+            name: "joint_smith, implicit, neubelt",
+            wgsl: "vec4(joint_smith(p.x, p.y), implicit(p.x), neubelt(p.x, p.y), 0.0)",
+            rust: Box::new(|a| [joint_smith(a[0], a[1]), implicit(a[0]), neubelt(a[0], a[1]), 0.0]),
+            arguments: three,
+            ulps: 5.0,
+            scale: 0.0,
+        },
+    ]
+}
