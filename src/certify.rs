@@ -40,6 +40,11 @@ impl Deviation {
         (worst, at)
     }
 
+    /// Both samples together.
+    pub fn with(self, other: Deviation) -> Deviation {
+        Deviation { a: self.a.max(other.a), b: self.b.max(other.b), texels: self.texels + other.texels }
+    }
+
     /// The larger of the two.
     pub fn largest(&self) -> f64 {
         self.a.max(self.b)

@@ -3,6 +3,7 @@
 //! With n·v = μ, n·l = x and Schlick's F: E = ∫ f n·l dω = F0 A + B, A = ∫ f/F (1-w) n·l dω, B = ∫ f/F w n·l dω,
 //! w = (1 - v·h)^5. The limits on the edges: α = 0 is a mirror, whatever n·v.
 
+pub mod average;
 pub mod h_space;
 pub mod l_space;
 pub mod reference;
@@ -23,6 +24,11 @@ impl ScaleBias {
     /// The directional albedo at F = 1: E = A + B.
     pub fn e(self) -> f64 {
         self.a + self.b
+    }
+
+    /// E(F0) = F0 A + B.
+    pub fn at_f0(self, f0: f64) -> f64 {
+        f0 * self.a + self.b
     }
 
     /// Adds `weight` times `part`.

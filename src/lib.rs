@@ -60,10 +60,15 @@ pub mod report;
 pub mod encode;
 pub mod cli;
 
-use backend::{Backend, Progress, cpu, vulkan};
+use backend::vulkan::{self, gpu::Gpu};
+use backend::{Backend, Progress, cpu};
+use certify::Deviation;
 use error::{Complaint, Error, Result};
+use integrate::ScaleBias;
+use integrate::average::{average, average_nodes};
 use integrate::rule::{Method, Rule, f32_arithmetic};
-use lut::Lut;
+use lut::{Grid, Integrals};
+use model::Microfacet;
 use report::{Computed, Report, Seconds};
 use request::{Accuracy, Request};
 use std::time::Instant;
@@ -80,44 +85,39 @@ pub struct Baked {
 
 /// Bakes a table. It has passed its checks when it comes back: see [`certify`].
 pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<Baked> {
-    let Lut::Dfg(dfg) = request.lut;
-    let grid = request.grid()?;
+    let (lobe, grid) = (request.lut.lobe(), request.grid()?);
     let (gpu, reason) = backend.device_unless(device_rule(request).err())?;
+    let arithmetic = if gpu.is_some() { f32_arithmetic(lobe) } else { F64_ARITHMETIC };
     let rule = match request.accuracy {
         Accuracy::Rule(rule) => rule,
         Accuracy::Tolerance(tolerance) => {
-            let arithmetic = if gpu.is_some() { f32_arithmetic(dfg.lobe) } else { 0.0 };
-            let rule = Rule::for_tolerance(dfg.lobe, tolerance, arithmetic);
+            let rule = Rule::for_tolerance(lobe, tolerance, arithmetic - F64_ARITHMETIC);
             rule.ok_or_else(|| Error::Internal(format!("no rule for the tolerance {tolerance}")))?
         }
     };
-    let start = Instant::now();
-    let integrals = match (gpu, rule.method) {
-        (Some(gpu), Method::HSpace(nodes)) => vulkan::bake::bake(gpu, dfg.lobe, &grid, &nodes, progress)?,
-        _ => cpu::bake(dfg.lobe, &grid, &rule, progress),
+    let job = Job { lobe, rule, arithmetic, gpu };
+    let mut checked = Checked::default();
+    let mut integrals = Integrals { points: job.run(&grid, progress, &mut checked)?, averages: Vec::new() };
+    if request.lut.needs_averages() {
+        let nodes = average_nodes();
+        let rows = job.run(&grid.of_averages(), &|_| (), &mut checked)?;
+        integrals.averages = rows.chunks(nodes.len()).map(|row| average(&nodes, row)).collect();
+    }
+    let computed = match gpu {
+        None => Computed::Cpu { reason },
+        Some(gpu) => Computed::Vulkan { device: gpu.info().clone(), cross_check: checked.cross_check },
     };
-    let integrate = start.elapsed().as_secs_f64();
-    let start = Instant::now();
-    let (computed, arithmetic) = match gpu {
-        None => (Computed::Cpu { reason }, 1e-15),
-        Some(gpu) => {
-            let cross_check = certify::cross_check(dfg.lobe, &grid, &rule, &integrals)?;
-            (Computed::Vulkan { device: gpu.info().clone(), cross_check }, f32_arithmetic(dfg.lobe))
-        }
-    };
-    let measured = certify::measure(dfg.lobe, &grid, &rule, arithmetic, &integrals)?;
-    let seconds = Seconds { integrate, check: start.elapsed().as_secs_f64() };
     let report = Report {
         command: request.to_string(),
         size: [request.x.size, request.y.size],
         computed,
-        accuracy: report::Accuracy::new(request, &rule, arithmetic, measured),
-        seconds,
+        accuracy: report::Accuracy::new(request, &rule, arithmetic, checked.measured),
+        seconds: checked.seconds,
     };
     let provenance = Provenance {
         rule: rule.name,
         error_bound: report.accuracy.bound,
-        measured_error: (measured.largest(), measured.texels),
+        measured_error: (checked.measured.largest(), checked.measured.texels),
         computed_by: report.computed.to_string(),
         command: report.command.clone(),
         ..request.lut.provenance()
@@ -126,12 +126,51 @@ pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<
     Ok(Baked { table, report })
 }
 
+/// What f64 arithmetic adds to a rule's error.
+const F64_ARITHMETIC: f64 = 1e-15;
+
+/// How the integrals of a bake are computed.
+struct Job<'a> {
+    lobe: Microfacet,
+    rule: Rule,
+    arithmetic: f64,
+    gpu: Option<&'a Gpu>,
+}
+
+/// What the checks of a bake have found, over all its grids, and the time that it took.
+#[derive(Default)]
+struct Checked {
+    cross_check: Deviation,
+    measured: Deviation,
+    seconds: Seconds,
+}
+
+impl Job<'_> {
+    /// Integrates over a grid, and checks what comes out.
+    fn run(&self, grid: &Grid, progress: Progress, checked: &mut Checked) -> Result<Vec<ScaleBias>> {
+        let Job { lobe, rule, arithmetic, gpu } = self;
+        let start = Instant::now();
+        let integrals = match (gpu, rule.method) {
+            (Some(gpu), Method::HSpace(nodes)) => vulkan::bake::bake(gpu, *lobe, grid, &nodes, progress)?,
+            _ => cpu::bake(*lobe, grid, rule, progress),
+        };
+        checked.seconds.integrate += start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        if gpu.is_some() {
+            checked.cross_check = checked.cross_check.with(certify::cross_check(*lobe, grid, rule, &integrals)?);
+        }
+        checked.measured = checked.measured.with(certify::measure(*lobe, grid, rule, *arithmetic, &integrals)?);
+        checked.seconds.check += start.elapsed().as_secs_f64();
+        Ok(integrals)
+    }
+}
+
 /// The rule by which a device can do the job, or what stands in the way.
 fn device_rule(request: &Request) -> std::result::Result<Rule, Complaint> {
-    let Lut::Dfg(dfg) = request.lut;
+    let lobe = request.lut.lobe();
     let found = match request.accuracy {
         Accuracy::Rule(rule) => Some(rule),
-        Accuracy::Tolerance(tolerance) => Rule::for_tolerance(dfg.lobe, tolerance, f32_arithmetic(dfg.lobe)),
+        Accuracy::Tolerance(tolerance) => Rule::for_tolerance(lobe, tolerance, f32_arithmetic(lobe)),
     };
     match found {
         Some(rule) if rule.runs_on_device() => Ok(rule),

@@ -1,14 +1,17 @@
 //! What can be baked: each family of tables with its integrand, its channels and its citation.
 
 pub mod dfg;
+pub mod energy;
 
 pub use dfg::{Dfg, DfgChannels};
+pub use energy::{Energy, EnergyChannels};
 
 use crate::axis::{Axis, Parameter};
 use crate::error::{Error, Result};
 use crate::integrate::ScaleBias;
-use crate::model::Ndf;
+use crate::integrate::average::average_nodes;
 use crate::model::blinn_phong::alpha_of_exponent;
+use crate::model::{Microfacet, Ndf};
 use crate::table::{Channel, Provenance, Table};
 use crate::units::{Alpha, PerceptualRoughness, word};
 
@@ -17,6 +20,8 @@ use crate::units::{Alpha, PerceptualRoughness, word};
 pub enum Lut {
     /// The split sum's scale and bias.
     Dfg(Dfg),
+    /// What a specular lobe leaves and loses.
+    Energy(Energy),
 }
 
 impl Lut {
@@ -24,40 +29,73 @@ impl Lut {
     pub fn name(&self) -> &'static str {
         match self {
             Lut::Dfg(_) => "dfg",
+            Lut::Energy(_) => "energy",
         }
     }
 
-    /// The channels of a texel.
-    pub fn channels(&self) -> Vec<Channel> {
+    /// The lobe that is integrated.
+    pub fn lobe(&self) -> Microfacet {
         match self {
-            Lut::Dfg(dfg) => dfg.channels.list().to_vec(),
+            Lut::Dfg(dfg) => dfg.lobe,
+            Lut::Energy(energy) => energy.lobe,
+        }
+    }
+
+    /// Whether a texel needs the average over all directions too.
+    pub fn needs_averages(&self) -> bool {
+        matches!(self, Lut::Energy(_))
+    }
+
+    /// The channels of a texel.
+    pub fn channels(&self) -> &'static [Channel] {
+        match self {
+            Lut::Dfg(dfg) => dfg.channels.list(),
+            Lut::Energy(energy) => energy.channels.list(),
+        }
+    }
+
+    /// The choices of the family as flags.
+    pub fn flags(&self) -> String {
+        match self {
+            Lut::Dfg(dfg) => format!("--channels {}", word(dfg.channels)),
+            Lut::Energy(energy) => format!("--channels {} --f0 {}", word(energy.channels), energy.f0.get()),
         }
     }
 
     /// What the metadata says of it, apart from how it was computed.
     pub fn provenance(&self) -> Provenance {
-        let Lut::Dfg(dfg) = self;
+        let Microfacet { ndf, masking } = self.lobe();
         Provenance {
             table: self.name(),
             equation: "E(F0) = F0*A + B = integral of f(l,v) n.l over directions l, f = F D G / (4 n.l n.v)",
-            model: word(dfg.lobe.ndf),
-            masking: word(dfg.lobe.masking),
+            model: word(ndf),
+            masking: word(masking),
             fresnel: "Schlick: F = F0 + (1 - F0) (1 - v.h)^5",
-            roughness: if dfg.lobe.ndf == Ndf::BlinnPhong {
-                "alpha = roughness^2, exponent n = 2/alpha^2 - 2"
-            } else {
-                "alpha = roughness^2"
+            f0: if let Lut::Energy(energy) = self { Some(energy.f0.get()) } else { None },
+            roughness: match ndf {
+                Ndf::BlinnPhong => "alpha = roughness^2, exponent n = 2/alpha^2 - 2",
+                _ => "alpha = roughness^2",
             },
             ..Provenance::default()
         }
     }
 
-    /// Appends the values of the channels of a texel.
-    pub fn push_values(&self, integral: ScaleBias, values: &mut Vec<f64>) {
+    /// Appends the values of the channels of a texel at n·v = `mu`.
+    fn push_values(&self, mu: f64, integral: ScaleBias, average: ScaleBias, values: &mut Vec<f64>) {
         match self {
             Lut::Dfg(dfg) => dfg.channels.push_values(integral, values),
+            Lut::Energy(energy) => energy.push_values(mu, integral, average, values),
         }
     }
+}
+
+/// The integrals of a table: at every point of its grid, and where the family needs them the averages for every α.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Integrals {
+    /// In the order of the grid.
+    pub points: Vec<ScaleBias>,
+    /// In the order of the grid's α; empty where none are needed.
+    pub averages: Vec<ScaleBias>,
 }
 
 /// The parameters of a table's texels, apart from how the table lays them out: every pair of an α and an n·v.
@@ -100,19 +138,25 @@ impl Grid {
         self.len() == 0
     }
 
+    /// The directions of the averages instead of the table's, for the same α.
+    pub fn of_averages(&self) -> Grid {
+        Grid { mus: average_nodes().into_iter().map(|(mu, _)| mu).collect(), ..self.clone() }
+    }
+
     /// (n·v, α) of point `index`.
     pub fn point(&self, index: usize) -> (f64, f64) {
         (self.mus[index % self.mus.len()], self.alphas[index / self.mus.len()])
     }
 
-    /// The table whose texels are `integrals`, given in the order of the grid.
-    pub fn table(&self, lut: &Lut, (x, y): (Axis, Axis), integrals: &[ScaleBias], provenance: Provenance) -> Table {
-        let channels = lut.channels();
+    /// The table of these integrals.
+    pub fn table(&self, lut: &Lut, (x, y): (Axis, Axis), integrals: &Integrals, provenance: Provenance) -> Table {
+        let channels = lut.channels().to_vec();
         let mut values = Vec::with_capacity(channels.len() * self.len());
         for j in 0..y.size {
             for i in 0..x.size {
-                let index = if self.transposed { i * self.mus.len() + j } else { j * self.mus.len() + i };
-                lut.push_values(integrals[index], &mut values);
+                let (i, j) = if self.transposed { (j, i) } else { (i, j) };
+                let average = integrals.averages.get(j).copied().unwrap_or_default();
+                lut.push_values(self.mus[i], integrals.points[j * self.mus.len() + i], average, &mut values);
             }
         }
         Table { x, y, channels, values, provenance }

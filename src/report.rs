@@ -3,7 +3,6 @@
 use crate::backend::vulkan::devices::DeviceInfo;
 use crate::certify::Deviation;
 use crate::integrate::rule::Rule;
-use crate::lut::{Dfg, Lut};
 use crate::request::Request;
 use serde::Serialize;
 use std::fmt;
@@ -68,7 +67,7 @@ pub struct Report {
 impl Accuracy {
     /// Of a table by `rule` with an arithmetic of that error.
     pub fn new(request: &Request, rule: &Rule, arithmetic: f64, measured: Deviation) -> Self {
-        let Lut::Dfg(Dfg { lobe, .. }) = request.lut;
+        let lobe = request.lut.lobe();
         Accuracy {
             rule: rule.name,
             evaluations: rule.evaluations(),

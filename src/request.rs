@@ -40,15 +40,15 @@ impl Request {
     /// Checks that the parts fit together.
     pub fn new(lut: Lut, x: Axis, y: Axis, accuracy: Accuracy, precision: Precision) -> Result<Self> {
         let request = Request { lut, x, y, accuracy, precision };
-        let Lut::Dfg(dfg) = lut;
+        let lobe = lut.lobe();
         let grid = request.grid()?;
-        let Microfacet { ndf, masking } = dfg.lobe;
+        let Microfacet { ndf, masking } = lobe;
         if !ndf.maskings().contains(&masking) {
             let expected = ndf.maskings().iter().map(word).collect::<Vec<_>>().join(", ");
             let what = format!("masking of {}", word(ndf));
             return Err(Error::bad_input(what, expected, word(masking), "name one that means something for the model"));
         }
-        if dfg.lobe.diverges_at_grazing() && grid.mus.contains(&0.0) {
+        if lobe.diverges_at_grazing() && grid.mus.contains(&0.0) {
             let got = "n.v = 0, where this albedo is infinite";
             return Err(Error::bad_input(
                 "axis of n.v",
@@ -59,17 +59,17 @@ impl Request {
         }
         match accuracy {
             Accuracy::Tolerance(tolerance) => {
-                if Rule::for_tolerance(dfg.lobe, tolerance, 0.0).is_none() || tolerance > 0.1 {
+                if Rule::for_tolerance(lobe, tolerance, 0.0).is_none() || tolerance > 0.1 {
                     return Err(Error::bad_input(
                         "tolerance",
-                        format!("an absolute error from {:e} to 0.1", REFERENCE.bound(dfg.lobe)),
+                        format!("an absolute error from {:e} to 0.1", REFERENCE.bound(lobe)),
                         format!("{tolerance:e}"),
                         "give one in that range",
                     ));
                 }
             }
             Accuracy::Rule(rule) => {
-                if !rule.applies_to(dfg.lobe) {
+                if !rule.applies_to(lobe) {
                     return Err(Error::bad_input(
                         "rule",
                         "one that can integrate the model",
@@ -98,9 +98,9 @@ impl Request {
 impl fmt::Display for Request {
     /// The command that repeats the job.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Lut::Dfg(dfg) = self.lut;
-        write!(f, "splitsum bake --lut {} --model {}", self.lut.name(), word(dfg.lobe.ndf))?;
-        write!(f, " --masking {} --channels {}", word(dfg.lobe.masking), word(dfg.channels))?;
+        let Microfacet { ndf, masking } = self.lut.lobe();
+        write!(f, "splitsum bake --lut {} --model {} --masking {}", self.lut.name(), word(ndf), word(masking))?;
+        write!(f, " {}", self.lut.flags())?;
         write!(f, " --size {}x{} --x {} --y {}", self.x.size, self.y.size, self.x.spec, self.y.spec)?;
         write!(f, " --precision {}", word(self.precision))?;
         match self.accuracy {

@@ -25,6 +25,9 @@ pub struct Provenance {
     pub masking: String,
     /// Fresnel.
     pub fresnel: &'static str,
+    /// Reflectance at normal incidence, where the table is for one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub f0: Option<f64>,
     /// What roughness means.
     pub roughness: &'static str,
     /// The quadrature rule.

@@ -98,6 +98,11 @@ fn every_choice_bakes() {
         "--size 1x5 --x nov,edges --y roughness,edges -o h.exr",
         "--tolerance 1e-12 -o i.exr",
         "--model beckmann --masking separable -o j.exr",
+        "--lut energy -o o.exr",
+        "--lut energy --channels average --size 1x8 -o p.exr",
+        "--lut energy --channels kulla-conty --model beckmann -o q.exr",
+        "--lut energy --channels turquin -o r.exr",
+        "--lut energy --channels split --ior 1.33 -o s.exr",
         "--model beckmann-walter -o k.exr",
         "--model blinn-phong --y exponent,edges -o l.exr",
         "--model charlie --channels e -o m.exr",
@@ -185,6 +190,12 @@ fn wrong_values_are_refused_with_what_was_expected() {
     refused("bake --model charlie --tolerance 1e-8", 4, &["from 2e-6 to 0.1"]);
     refused("bake --model beckmann --rule l128", 4, &["begins with h"]);
     refused("bake --lut sheen", 4, &["dfg", "got 'sheen'"]);
+    refused("bake --f0 0.04", 4, &["energy where f0", "'dfg'"]);
+    refused("bake --lut energy --f0 1", 4, &["less than 1"]);
+    refused("bake --lut energy --f0 nan", 4, &["expected 0 to 1"]);
+    refused("bake --lut energy --ior 0.5", 4, &["at least 1"]);
+    refused("bake --lut energy --model charlie", 4, &["albedo stays below 1"]);
+    refused("bake --lut energy --channels ab", 4, &["split", "got 'ab'"]);
     refused("bake --masking none", 4, &["height-correlated", "schlick-smith"]);
     refused("bake --channels rgb", 4, &["ab", "be"]);
     refused("bake --precision f64", 4, &["f16", "unorm8"]);

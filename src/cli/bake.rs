@@ -49,8 +49,22 @@ pub struct BakeArgs {
     mt: Option<String>,
 }
 
-const TABLE_FLAGS: [&str; 12] =
-    ["lut", "model", "masking", "channels", "size", "x", "y", "precision", "tolerance", "rule", "format", "output"];
+const TABLE_FLAGS: [&str; 14] = [
+    "lut",
+    "model",
+    "masking",
+    "channels",
+    "f0",
+    "ior",
+    "size",
+    "x",
+    "y",
+    "precision",
+    "tolerance",
+    "rule",
+    "format",
+    "output",
+];
 
 #[derive(Serialize)]
 struct Run {

@@ -4,10 +4,11 @@ use crate::axis::{Axis, AxisSpec, Parameter};
 use crate::encode::Format;
 use crate::error::{Error, Result};
 use crate::integrate::rule::Rule;
-use crate::lut::{Dfg, Lut};
+use crate::lut::{Dfg, Energy, Lut};
 use crate::model::{Microfacet, Ndf};
 use crate::precision::Precision;
 use crate::request::{Accuracy, DEFAULT_SIZE, Request};
+use crate::units::{F0, Ior};
 use serde::{Deserialize, de::DeserializeOwned};
 use std::fmt;
 use std::path::Path;
@@ -16,7 +17,8 @@ use std::path::Path;
 #[derive(Clone, Debug, Default, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct TableArgs {
-    /// Family of tables: dfg, the split sum's E(F0) = F0*A + B (Karis 2013) [default: dfg]
+    /// Family of tables: dfg, the split sum's E(F0) = F0*A + B (Karis 2013); energy, what a specular lobe leaves for a
+    /// diffuse base and loses between its facets (Kulla and Conty 2017; Turquin 2019) [default: dfg]
     #[arg(long, value_name = "NAME")]
     pub lut: Option<String>,
     /// Distribution of normals: ggx (Walter et al. 2007), beckmann (with the exact Smith term), beckmann-walter (with
@@ -29,9 +31,17 @@ pub struct TableArgs {
     /// height-correlated; implicit for blinn-phong, neubelt for charlie]
     #[arg(long, value_name = "NAME")]
     pub masking: Option<String>,
-    /// Channels: ab (scale, bias), be (bias, E = A + B: the multiple-scattering packing), e (E alone) [default: ab]
+    /// Channels of dfg: ab (scale, bias), be (bias, E = A + B: the multiple-scattering packing), e (E alone) [default: ab].
+    /// Of energy: average (A, B, E over all directions), kulla-conty (E, E_avg), turquin ((1-E)/E), split (the diffuse
+    /// factor 1-F, 1-E, and the reciprocal one for each direction) [default: split]
     #[arg(long, value_name = "NAME")]
     pub channels: Option<String>,
+    /// Reflectance at normal incidence, for the split of energy [default: 0.04]
+    #[arg(long, value_name = "F0", conflicts_with = "ior")]
+    pub f0: Option<f64>,
+    /// Index of refraction instead of F0: F0 = ((1-n)/(1+n))^2
+    #[arg(long, value_name = "N")]
+    pub ior: Option<f64>,
     /// Columns x rows, each 1 to 16384; one number for a square [default: 128]
     #[arg(long, value_name = "N|WxH")]
     pub size: Option<Size>,
@@ -73,6 +83,9 @@ pub enum Size {
 /// Where a table goes when nothing is said.
 pub const DEFAULT_OUTPUT: &str = "out/dfg.exr";
 
+/// F0 of most dielectrics: an index of refraction of 1.5.
+const DEFAULT_F0: f64 = 0.04;
+
 /// A table to bake and where it goes.
 #[derive(Clone, Debug)]
 pub struct Job {
@@ -101,14 +114,35 @@ impl TableArgs {
     }
 
     fn lut(&self) -> Result<Lut> {
-        let name = self.lut.as_deref().unwrap_or("dfg");
-        if name != "dfg" {
-            return Err(Error::bad_input("lut", "dfg", format!("'{name}'"), "name one of these"));
-        }
         let ndf: Ndf = choice("model", self.model.as_deref().unwrap_or("ggx"))?;
         let masking = self.masking.as_deref().map_or(Ok(ndf.default_masking()), |name| choice("masking", name))?;
         let lobe = Microfacet { ndf, masking };
-        Ok(Lut::Dfg(Dfg { lobe, channels: choice("channels", self.channels.as_deref().unwrap_or("ab"))? }))
+        let family = self.lut.as_deref().unwrap_or("dfg");
+        if family != "energy" && (self.f0.is_some() || self.ior.is_some()) {
+            let cure = "leave out f0 and ior: a dfg table serves every F0";
+            return Err(Error::bad_input("lut", "energy where f0 or ior is given", format!("'{family}'"), cure));
+        }
+        match family {
+            "dfg" => {
+                Ok(Lut::Dfg(Dfg { lobe, channels: choice("channels", self.channels.as_deref().unwrap_or("ab"))? }))
+            }
+            "energy" => {
+                let channels = choice("channels", self.channels.as_deref().unwrap_or("split"))?;
+                Ok(Lut::Energy(Energy::new(lobe, self.f0()?, channels)?))
+            }
+            other => Err(Error::bad_input("lut", "dfg or energy", format!("'{other}'"), "name one of these")),
+        }
+    }
+
+    fn f0(&self) -> Result<F0> {
+        match (self.f0, self.ior) {
+            (Some(_), Some(_)) => {
+                Err(Error::bad_input("f0", "F0 or an index of refraction", "both", "leave one of them out"))
+            }
+            (Some(f0), None) => F0::new(f0),
+            (None, Some(n)) => Ok(F0::from(Ior::new(n)?)),
+            (None, None) => F0::new(DEFAULT_F0),
+        }
     }
 
     fn axes(&self) -> Result<(Axis, Axis)> {

@@ -1,0 +1,111 @@
+//! The energy between specular and diffuse reflection: what a specular lobe leaves, and what it loses between its facets.
+//!
+//! Radiometry: a surface that receives radiance L from everywhere (W m⁻² sr⁻¹) has the irradiance E = π L (W m⁻²), and a BRDF
+//! f (sr⁻¹) reflects ∫ f L n·l dω towards v. With L = 1 (the white furnace) that is the directional albedo E(μ) = ∫ f n·l dω,
+//! and the reflected share of all the light is the average albedo E_avg = 2 ∫ E μ dμ, since dω's projection is π in all.
+//!
+//! *Multiple scattering.* A Smith lobe with F = 1 gives back E(μ) < 1: the rest hits other facets. Kulla and Conty 2017 give
+//! it back by f_ms = (1-E(μ_l))(1-E(μ_v)) / (π (1-E_avg)), whose albedo is 1-E(μ_v); Turquin 2019 by the factor
+//! 1 + F0 (1-E)/E on the lobe; Fdez-Agüera 2019 from A and B alone, which the dfg family holds.
+//!
+//! *The split.* What is left for a white diffuse base below a lobe with F0: (a) 1 - F(μ), as if only the mirror direction
+//! reflected; (b) 1 - E(μ_v), albedo scaling, exact in a furnace but not reciprocal; (c) (1-E(μ_v))(1-E(μ_l))/(1-E_avg),
+//! reciprocal and exact (Shirley et al. 1997; Kelemen and Szirmay-Kalos 2001; Ashikhmin and Shirley 2000 approximate it). (c)
+//! is the product of one factor for each direction, (1-E(μ))/√(1-E_avg), which is what a texel holds.
+
+use crate::error::{Error, Result};
+use crate::integrate::ScaleBias;
+use crate::model::fresnel::schlick_weight;
+use crate::model::{Masking, Microfacet};
+use crate::table::Channel;
+use crate::units::{F0, word};
+
+/// Which lobe, which F0, and which numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Energy {
+    /// The specular lobe.
+    pub lobe: Microfacet,
+    /// Its reflectance at normal incidence, for the split.
+    pub f0: F0,
+    /// The numbers.
+    pub channels: EnergyChannels,
+}
+
+/// Which numbers a texel holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EnergyChannels {
+    /// (A_avg, B_avg, E_avg), which vary with roughness alone.
+    Average,
+    /// (E, E_avg), from which Kulla and Conty's lobe is made.
+    KullaConty,
+    /// (1-E)/E, Turquin's factor for F0 = 1.
+    Turquin,
+    /// The factor of a diffuse base below a lobe of the given F0: (a), (b), and for either direction (c).
+    Split,
+}
+
+impl Energy {
+    /// Refuses the lobes for which the numbers have no meaning.
+    pub fn new(lobe: Microfacet, f0: F0, channels: EnergyChannels) -> Result<Self> {
+        let cure = "choose another model or masking";
+        if lobe.may_exceed_one() {
+            let got = format!("{} with {}", word(lobe.ndf), word(lobe.masking));
+            return Err(Error::bad_input(
+                "model",
+                "one whose albedo stays below 1, so that it leaves energy",
+                got,
+                cure,
+            ));
+        }
+        if channels == EnergyChannels::Turquin && lobe.masking == Masking::Implicit {
+            let expected = "a Smith term: only its loss is multiple scattering";
+            return Err(Error::bad_input("masking", expected, word(lobe.masking), cure));
+        }
+        if channels == EnergyChannels::Split && f0.get() >= 1.0 {
+            let cure = "give an F0 below 1";
+            return Err(Error::bad_input("F0", "less than 1, which leaves something for a base", "1", cure));
+        }
+        Ok(Energy { lobe, f0, channels })
+    }
+
+    /// Appends the values of a texel: at `mu` with these integrals, on a row or column with these averages.
+    pub fn push_values(&self, mu: f64, integral: ScaleBias, average: ScaleBias, values: &mut Vec<f64>) {
+        match self.channels {
+            EnergyChannels::Average => values.extend([average.a, average.b, average.e()]),
+            EnergyChannels::KullaConty => values.extend([integral.e(), average.e()]),
+            EnergyChannels::Turquin => values.push((1.0 - integral.e()) / integral.e()),
+            EnergyChannels::Split => {
+                let f0 = self.f0.get();
+                let left = 1.0 - integral.at_f0(f0);
+                let naive = 1.0 - (f0 + (1.0 - f0) * schlick_weight(mu));
+                values.extend([naive, left, left / (1.0 - average.at_f0(f0)).sqrt()]);
+            }
+        }
+    }
+}
+
+impl EnergyChannels {
+    /// The channels in order.
+    pub fn list(self) -> &'static [Channel] {
+        match self {
+            EnergyChannels::Average => &[
+                Channel { name: "A_avg", meaning: "average of A: 2 * integral of A mu dmu" },
+                Channel { name: "B_avg", meaning: "average of B" },
+                Channel { name: "E_avg", meaning: "average albedo at F = 1" },
+            ],
+            EnergyChannels::KullaConty => &[
+                Channel { name: "E", meaning: "f_ms = (1-E(l))(1-E(v)) / (pi (1-E_avg))" },
+                Channel { name: "E_avg", meaning: "average albedo at F = 1" },
+            ],
+            EnergyChannels::Turquin => {
+                &[Channel { name: "(1-E)/E", meaning: "the lobe times 1 + F0 (1-E)/E keeps its energy" }]
+            }
+            EnergyChannels::Split => &[
+                Channel { name: "1-F", meaning: "diffuse factor (a): 1 - F(n.v)" },
+                Channel { name: "1-E", meaning: "diffuse factor (b): 1 - E(v) at F0" },
+                Channel { name: "R", meaning: "diffuse factor (c): R(l) R(v), R = (1-E)/sqrt(1-E_avg) at F0" },
+            ],
+        }
+    }
+}
