@@ -1,16 +1,6 @@
 // The integral over half vectors: the twin of src/integrate/h_space.rs.
 // It needs slope_width, slope_end, slope_density and cosine_visibility of the lobe, and the rule's nodes.
 
-struct Rule {
-    radial: u32,
-    azimuth: u32,
-    radial_horizon: u32,
-    azimuth_horizon: u32,
-}
-
-// (position, weight), in the order of the fields of Rule.
-@group(0) @binding(0) var<storage, read> nodes: array<vec2<f32>>;
-
 struct Ring {
     m: f32,
     s: f32,

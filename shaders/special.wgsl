@@ -49,3 +49,9 @@ fn ierfc(a: f32) -> f32 {
         + t * -0.000196480847))))))));
     return exponential(-a * a) * fit;
 }
+
+// arccos(x) for 0 <= x <= 1: sqrt(1-x) times a polynomial, within 2e-8 (Abramowitz and Stegun, 4.4.46).
+fn arc_cosine(x: f32) -> f32 {
+    return sqrt(1.0 - x) * (1.5707963050 + x * (-0.2145988016 + x * (0.0889789874 + x * (-0.0501743046
+        + x * (0.0308918810 + x * (-0.0170881256 + x * (0.0066700901 + x * -0.0012624911)))))));
+}

@@ -2,10 +2,9 @@
 
 use crate::backend::cpu;
 use crate::error::{Error, Result};
-use crate::integrate::ScaleBias;
 use crate::integrate::rule::{Rule, f32_arithmetic};
+use crate::integrate::{Integrand, ScaleBias};
 use crate::lut::Grid;
-use crate::model::Microfacet;
 use serde::Serialize;
 
 /// Texels for each one that the CPU repeats: a workgroup's worth, so that no workgroup can go missing unnoticed.
@@ -57,9 +56,15 @@ impl Deviation {
 
 /// Compares a device's table with the CPU at one texel of every 64, at the corners, and every texel with the range
 /// of the lobe's albedo: a device that leaves out, zeroes or mixes up anything as large as a workgroup is found out.
-pub fn cross_check(lobe: Microfacet, grid: &Grid, rule: &Rule, table: &[ScaleBias]) -> Result<Deviation> {
-    let allowed = f32_arithmetic(lobe);
-    let most = if lobe.may_exceed_one() { f64::from(f32::MAX) } else { 1.0 + rule.bound(lobe) + allowed };
+pub fn cross_check(
+    integrand: impl Into<Integrand>,
+    grid: &Grid,
+    rule: &Rule,
+    table: &[ScaleBias],
+) -> Result<Deviation> {
+    let integrand = integrand.into();
+    let allowed = f32_arithmetic(integrand);
+    let most = if integrand.may_exceed_one() { f64::from(f32::MAX) } else { 1.0 + rule.bound(integrand) + allowed };
     let range = -allowed..=most;
     if let Some(index) = table.iter().position(|v| !range.contains(&v.a) || !range.contains(&v.b)) {
         let (mu, alpha) = grid.point(index);
@@ -71,7 +76,7 @@ pub fn cross_check(lobe: Microfacet, grid: &Grid, rule: &Rule, table: &[ScaleBia
     }
     let runs = (0..grid.len()).step_by(RUN).map(|first| first + scatter(first) % RUN.min(grid.len() - first));
     let sample: Vec<usize> = corners(grid).into_iter().chain(runs).collect();
-    let truth = cpu::bake_at(lobe, grid, rule, &sample);
+    let truth = cpu::bake_at(integrand, grid, rule, &sample);
     let (worst, (mu, alpha)) = Deviation::between(grid, &sample, table, &truth);
     if worst.within(allowed) {
         return Ok(worst);
@@ -85,7 +90,14 @@ pub fn cross_check(lobe: Microfacet, grid: &Grid, rule: &Rule, table: &[ScaleBia
 
 /// Measures a table by `rule` against the reference, at the corners and at texels scattered over it; an error beyond what
 /// the rule and the `arithmetic` promise fails.
-pub fn measure(lobe: Microfacet, grid: &Grid, rule: &Rule, arithmetic: f64, table: &[ScaleBias]) -> Result<Deviation> {
+pub fn measure(
+    integrand: impl Into<Integrand>,
+    grid: &Grid,
+    rule: &Rule,
+    arithmetic: f64,
+    table: &[ScaleBias],
+) -> Result<Deviation> {
+    let integrand = integrand.into();
     let sample: Vec<usize> = if grid.len() <= MEASURED {
         (0..grid.len()).collect()
     } else {
@@ -93,9 +105,9 @@ pub fn measure(lobe: Microfacet, grid: &Grid, rule: &Rule, arithmetic: f64, tabl
         let scattered = |i| stratum(i) + scatter(i) % (stratum(i + 1) - stratum(i));
         corners(grid).into_iter().chain((0..MEASURED - 4).map(scattered)).collect()
     };
-    let truth = cpu::bake_at(lobe, grid, &rule.yardstick(), &sample);
+    let truth = cpu::bake_at(integrand, grid, &rule.yardstick(), &sample);
     let (worst, (mu, alpha)) = Deviation::between(grid, &sample, table, &truth);
-    let bound = rule.bound(lobe) + arithmetic;
+    let bound = rule.bound(integrand) + arithmetic;
     if worst.within(bound) {
         return Ok(worst);
     }

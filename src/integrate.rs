@@ -10,6 +10,32 @@ pub mod reference;
 pub mod rule;
 
 use crate::model::fresnel::schlick_weight;
+use crate::model::{Diffuse, Microfacet};
+
+/// What is integrated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Integrand {
+    /// A specular lobe, to (A, B).
+    Specular(Microfacet),
+    /// A white diffuse lobe, to (E, 0); the grid's α is the square of its roughness.
+    Diffuse(Diffuse),
+}
+
+impl From<Microfacet> for Integrand {
+    fn from(lobe: Microfacet) -> Self {
+        Integrand::Specular(lobe)
+    }
+}
+
+impl Integrand {
+    /// Whether an albedo can exceed 1.
+    pub fn may_exceed_one(self) -> bool {
+        match self {
+            Integrand::Specular(lobe) => lobe.may_exceed_one(),
+            Integrand::Diffuse(_) => true,
+        }
+    }
+}
 
 /// The two numbers of the split sum: E(F0) = F0 · `a` + `b` (Karis 2013).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

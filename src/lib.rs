@@ -64,11 +64,12 @@ use backend::vulkan::{self, gpu::Gpu};
 use backend::{Backend, Progress, cpu};
 use certify::Deviation;
 use error::{Complaint, Error, Result};
-use integrate::ScaleBias;
 use integrate::average::{average, average_nodes};
+use integrate::h_space::HSpaceRule;
 use integrate::rule::{Method, Rule, f32_arithmetic};
+use integrate::{Integrand, ScaleBias};
 use lut::{Grid, Integrals};
-use model::Microfacet;
+use quadrature::slope_map::Power;
 use report::{Computed, Report, Seconds};
 use request::{Accuracy, Request};
 use std::time::Instant;
@@ -85,17 +86,17 @@ pub struct Baked {
 
 /// Bakes a table. It has passed its checks when it comes back: see [`certify`].
 pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<Baked> {
-    let (lobe, grid) = (request.lut.lobe(), request.grid()?);
+    let (integrand, grid) = (request.lut.integrand(), request.grid()?);
     let (gpu, reason) = backend.device_unless(device_rule(request).err())?;
-    let arithmetic = if gpu.is_some() { f32_arithmetic(lobe) } else { F64_ARITHMETIC };
+    let arithmetic = if gpu.is_some() { f32_arithmetic(integrand) } else { F64_ARITHMETIC };
     let rule = match request.accuracy {
         Accuracy::Rule(rule) => rule,
         Accuracy::Tolerance(tolerance) => {
-            let rule = Rule::for_tolerance(lobe, tolerance, arithmetic - F64_ARITHMETIC);
+            let rule = Rule::for_tolerance(integrand, tolerance, arithmetic - F64_ARITHMETIC);
             rule.ok_or_else(|| Error::Internal(format!("no rule for the tolerance {tolerance}")))?
         }
     };
-    let job = Job { lobe, rule, arithmetic, gpu };
+    let job = Job { integrand, rule, arithmetic, gpu };
     let mut checked = Checked::default();
     let mut integrals = Integrals { points: job.run(&grid, progress, &mut checked)?, averages: Vec::new() };
     if request.lut.needs_averages() {
@@ -126,12 +127,16 @@ pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<
     Ok(Baked { table, report })
 }
 
+/// The rule of a closed form.
+const NO_NODES: HSpaceRule =
+    HSpaceRule { radial: 0, azimuth: 0, radial_horizon: 0, azimuth_horizon: 0, power: Power::Two };
+
 /// What f64 arithmetic adds to a rule's error.
 const F64_ARITHMETIC: f64 = 1e-15;
 
 /// How the integrals of a bake are computed.
 struct Job<'a> {
-    lobe: Microfacet,
+    integrand: Integrand,
     rule: Rule,
     arithmetic: f64,
     gpu: Option<&'a Gpu>,
@@ -148,18 +153,19 @@ struct Checked {
 impl Job<'_> {
     /// Integrates over a grid, and checks what comes out.
     fn run(&self, grid: &Grid, progress: Progress, checked: &mut Checked) -> Result<Vec<ScaleBias>> {
-        let Job { lobe, rule, arithmetic, gpu } = self;
+        let Job { integrand, rule, arithmetic, gpu } = self;
         let start = Instant::now();
         let integrals = match (gpu, rule.method) {
-            (Some(gpu), Method::HSpace(nodes)) => vulkan::bake::bake(gpu, *lobe, grid, &nodes, progress)?,
-            _ => cpu::bake(*lobe, grid, rule, progress),
+            (Some(gpu), Method::HSpace(nodes)) => vulkan::bake::bake(gpu, *integrand, grid, &nodes, progress)?,
+            (Some(gpu), Method::ClosedForm) => vulkan::bake::bake(gpu, *integrand, grid, &NO_NODES, progress)?,
+            _ => cpu::bake(*integrand, grid, rule, progress),
         };
         checked.seconds.integrate += start.elapsed().as_secs_f64();
         let start = Instant::now();
         if gpu.is_some() {
-            checked.cross_check = checked.cross_check.with(certify::cross_check(*lobe, grid, rule, &integrals)?);
+            checked.cross_check = checked.cross_check.with(certify::cross_check(*integrand, grid, rule, &integrals)?);
         }
-        checked.measured = checked.measured.with(certify::measure(*lobe, grid, rule, *arithmetic, &integrals)?);
+        checked.measured = checked.measured.with(certify::measure(*integrand, grid, rule, *arithmetic, &integrals)?);
         checked.seconds.check += start.elapsed().as_secs_f64();
         Ok(integrals)
     }
@@ -167,10 +173,10 @@ impl Job<'_> {
 
 /// The rule by which a device can do the job, or what stands in the way.
 fn device_rule(request: &Request) -> std::result::Result<Rule, Complaint> {
-    let lobe = request.lut.lobe();
+    let integrand = request.lut.integrand();
     let found = match request.accuracy {
         Accuracy::Rule(rule) => Some(rule),
-        Accuracy::Tolerance(tolerance) => Rule::for_tolerance(lobe, tolerance, f32_arithmetic(lobe)),
+        Accuracy::Tolerance(tolerance) => Rule::for_tolerance(integrand, tolerance, f32_arithmetic(integrand)),
     };
     match found {
         Some(rule) if rule.runs_on_device() => Ok(rule),

@@ -1,6 +1,7 @@
 //! What can be baked: each family of tables with its integrand, its channels and its citation.
 
 pub mod dfg;
+pub mod diffuse;
 pub mod energy;
 
 pub use dfg::{Dfg, DfgChannels};
@@ -8,10 +9,10 @@ pub use energy::{Energy, EnergyChannels};
 
 use crate::axis::{Axis, Parameter};
 use crate::error::{Error, Result};
-use crate::integrate::ScaleBias;
 use crate::integrate::average::average_nodes;
+use crate::integrate::{Integrand, ScaleBias};
 use crate::model::blinn_phong::alpha_of_exponent;
-use crate::model::{Microfacet, Ndf};
+use crate::model::{Diffuse, Microfacet, Ndf};
 use crate::table::{Channel, Provenance, Table};
 use crate::units::{Alpha, PerceptualRoughness, word};
 
@@ -22,6 +23,8 @@ pub enum Lut {
     Dfg(Dfg),
     /// What a specular lobe leaves and loses.
     Energy(Energy),
+    /// The albedo of a diffuse lobe.
+    Diffuse(Diffuse),
 }
 
 impl Lut {
@@ -30,14 +33,16 @@ impl Lut {
         match self {
             Lut::Dfg(_) => "dfg",
             Lut::Energy(_) => "energy",
+            Lut::Diffuse(_) => "diffuse",
         }
     }
 
-    /// The lobe that is integrated.
-    pub fn lobe(&self) -> Microfacet {
+    /// What is integrated.
+    pub fn integrand(&self) -> Integrand {
         match self {
-            Lut::Dfg(dfg) => dfg.lobe,
-            Lut::Energy(energy) => energy.lobe,
+            Lut::Dfg(dfg) => dfg.lobe.into(),
+            Lut::Energy(energy) => energy.lobe.into(),
+            Lut::Diffuse(diffuse) => Integrand::Diffuse(*diffuse),
         }
     }
 
@@ -51,32 +56,46 @@ impl Lut {
         match self {
             Lut::Dfg(dfg) => dfg.channels.list(),
             Lut::Energy(energy) => energy.channels.list(),
+            Lut::Diffuse(_) => &[diffuse::ALBEDO],
         }
     }
 
     /// The choices of the family as flags.
     pub fn flags(&self) -> String {
+        let lobe = |Microfacet { ndf, masking }| format!("--model {} --masking {}", word(ndf), word(masking));
         match self {
-            Lut::Dfg(dfg) => format!("--channels {}", word(dfg.channels)),
-            Lut::Energy(energy) => format!("--channels {} --f0 {}", word(energy.channels), energy.f0.get()),
+            Lut::Dfg(dfg) => format!("{} --channels {}", lobe(dfg.lobe), word(dfg.channels)),
+            Lut::Energy(energy) => {
+                format!("{} --channels {} --f0 {}", lobe(energy.lobe), word(energy.channels), energy.f0.get())
+            }
+            Lut::Diffuse(diffuse) => format!("--model {}", word(diffuse)),
         }
     }
 
     /// What the metadata says of it, apart from how it was computed.
     pub fn provenance(&self) -> Provenance {
-        let Microfacet { ndf, masking } = self.lobe();
-        Provenance {
+        let specular = |Microfacet { ndf, masking }| Provenance {
             table: self.name(),
             equation: "E(F0) = F0*A + B = integral of f(l,v) n.l over directions l, f = F D G / (4 n.l n.v)",
             model: word(ndf),
-            masking: word(masking),
-            fresnel: "Schlick: F = F0 + (1 - F0) (1 - v.h)^5",
-            f0: if let Lut::Energy(energy) = self { Some(energy.f0.get()) } else { None },
+            masking: Some(word(masking)),
+            fresnel: Some("Schlick: F = F0 + (1 - F0) (1 - v.h)^5"),
             roughness: match ndf {
                 Ndf::BlinnPhong => "alpha = roughness^2, exponent n = 2/alpha^2 - 2",
                 _ => "alpha = roughness^2",
             },
             ..Provenance::default()
+        };
+        match self {
+            Lut::Dfg(dfg) => specular(dfg.lobe),
+            Lut::Energy(energy) => Provenance { f0: Some(energy.f0.get()), ..specular(energy.lobe) },
+            Lut::Diffuse(model) => Provenance {
+                table: self.name(),
+                equation: diffuse::source(*model),
+                model: word(model),
+                roughness: diffuse::roughness(*model),
+                ..Provenance::default()
+            },
         }
     }
 
@@ -85,6 +104,7 @@ impl Lut {
         match self {
             Lut::Dfg(dfg) => dfg.channels.push_values(integral, values),
             Lut::Energy(energy) => energy.push_values(mu, integral, average, values),
+            Lut::Diffuse(_) => values.push(integral.a),
         }
     }
 }

@@ -8,6 +8,7 @@ pub mod ggx;
 pub mod beckmann;
 pub mod blinn_phong;
 pub mod charlie;
+pub mod diffuse;
 pub mod masking;
 
 /// The distribution of microfacet normals.
@@ -42,6 +43,20 @@ pub enum Masking {
     Implicit,
     /// V = 1/(4 (n·l + n·v - n·l n·v)), for sheen (Neubelt and Pettineo 2013).
     Neubelt,
+}
+
+/// A diffuse lobe.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Diffuse {
+    /// Lambert 1760.
+    Lambert,
+    /// Burley 2012 ("Disney diffuse").
+    Burley,
+    /// Oren and Nayar 1994, the qualitative model.
+    OrenNayar,
+    /// The single scattering of EON (Portsmouth, Kutz and Hill 2025).
+    Eon,
 }
 
 /// A distribution of normals with its masking term: everything of a specular lobe but Fresnel.
@@ -115,6 +130,21 @@ impl Ndf {
             Ndf::BlinnPhong => &[Implicit, HeightCorrelated, Separable],
             // Height-correlated is the pair that Estevez and Kulla fitted.
             Ndf::Charlie => &[Neubelt, HeightCorrelated, Implicit],
+        }
+    }
+}
+
+impl Diffuse {
+    /// All of them.
+    pub const ALL: [Diffuse; 4] = [Diffuse::Lambert, Diffuse::Burley, Diffuse::OrenNayar, Diffuse::Eon];
+
+    /// The directional albedo of a white surface with the roughness `r`.
+    pub fn albedo(self, mu: f64, r: f64) -> f64 {
+        match self {
+            Diffuse::Lambert => diffuse::lambert_albedo(),
+            Diffuse::Burley => diffuse::burley_albedo(mu, r),
+            Diffuse::OrenNayar => diffuse::oren_nayar_albedo(mu, r),
+            Diffuse::Eon => diffuse::eon_albedo(mu, r),
         }
     }
 }

@@ -67,11 +67,11 @@ pub struct Report {
 impl Accuracy {
     /// Of a table by `rule` with an arithmetic of that error.
     pub fn new(request: &Request, rule: &Rule, arithmetic: f64, measured: Deviation) -> Self {
-        let lobe = request.lut.lobe();
+        let integrand = request.lut.integrand();
         Accuracy {
             rule: rule.name,
             evaluations: rule.evaluations(),
-            bound: rule.bound(lobe) + arithmetic,
+            bound: rule.bound(integrand) + arithmetic,
             measured,
             rounding: request.precision.half_step(),
         }

@@ -2,7 +2,8 @@
 
 use crate::axis::{Axis, AxisSpec, Parameter};
 use crate::error::{Error, Result};
-use crate::integrate::rule::{REFERENCE, Rule};
+use crate::integrate::Integrand;
+use crate::integrate::rule::Rule;
 use crate::lut::{Grid, Lut};
 use crate::model::Microfacet;
 use crate::precision::Precision;
@@ -40,41 +41,28 @@ impl Request {
     /// Checks that the parts fit together.
     pub fn new(lut: Lut, x: Axis, y: Axis, accuracy: Accuracy, precision: Precision) -> Result<Self> {
         let request = Request { lut, x, y, accuracy, precision };
-        let lobe = lut.lobe();
-        let grid = request.grid()?;
-        let Microfacet { ndf, masking } = lobe;
-        if !ndf.maskings().contains(&masking) {
-            let expected = ndf.maskings().iter().map(word).collect::<Vec<_>>().join(", ");
-            let what = format!("masking of {}", word(ndf));
-            return Err(Error::bad_input(what, expected, word(masking), "name one that means something for the model"));
-        }
-        if lobe.diverges_at_grazing() && grid.mus.contains(&0.0) {
-            let got = "n.v = 0, where this albedo is infinite";
-            return Err(Error::bad_input(
-                "axis of n.v",
-                "n.v > 0",
-                got,
-                "add min=1e-4 to the axis, or choose texel centres",
-            ));
+        let (integrand, grid) = (lut.integrand(), request.grid()?);
+        if let Integrand::Specular(lobe) = integrand {
+            check_lobe(lobe, &grid)?;
         }
         match accuracy {
             Accuracy::Tolerance(tolerance) => {
-                if Rule::for_tolerance(lobe, tolerance, 0.0).is_none() || tolerance > 0.1 {
+                if Rule::for_tolerance(integrand, tolerance, 0.0).is_none() || tolerance > 0.1 {
                     return Err(Error::bad_input(
                         "tolerance",
-                        format!("an absolute error from {:e} to 0.1", REFERENCE.bound(lobe)),
+                        format!("an absolute error from {:e} to 0.1", Rule::sharpest_bound(integrand)),
                         format!("{tolerance:e}"),
                         "give one in that range",
                     ));
                 }
             }
             Accuracy::Rule(rule) => {
-                if !rule.applies_to(lobe) {
+                if !rule.applies_to(integrand) {
                     return Err(Error::bad_input(
                         "rule",
                         "one that can integrate the model",
                         rule.name,
-                        "choose a rule whose name begins with h",
+                        "choose a rule whose name begins with h, or closed-form for a diffuse lobe",
                     ));
                 }
             }
@@ -95,12 +83,30 @@ impl Request {
     }
 }
 
+/// Refuses what means nothing, or has no finite value.
+fn check_lobe(lobe: Microfacet, grid: &Grid) -> Result<()> {
+    let Microfacet { ndf, masking } = lobe;
+    if !ndf.maskings().contains(&masking) {
+        let expected = ndf.maskings().iter().map(word).collect::<Vec<_>>().join(", ");
+        let what = format!("masking of {}", word(ndf));
+        return Err(Error::bad_input(what, expected, word(masking), "name one that means something for the model"));
+    }
+    if lobe.diverges_at_grazing() && grid.mus.contains(&0.0) {
+        let got = "n.v = 0, where this albedo is infinite";
+        return Err(Error::bad_input(
+            "axis of n.v",
+            "n.v > 0",
+            got,
+            "add min=1e-4 to the axis, or choose texel centres",
+        ));
+    }
+    Ok(())
+}
+
 impl fmt::Display for Request {
     /// The command that repeats the job.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Microfacet { ndf, masking } = self.lut.lobe();
-        write!(f, "splitsum bake --lut {} --model {} --masking {}", self.lut.name(), word(ndf), word(masking))?;
-        write!(f, " {}", self.lut.flags())?;
+        write!(f, "splitsum bake --lut {} {}", self.lut.name(), self.lut.flags())?;
         write!(f, " --size {}x{} --x {} --y {}", self.x.size, self.y.size, self.x.spec, self.y.spec)?;
         write!(f, " --precision {}", word(self.precision))?;
         match self.accuracy {

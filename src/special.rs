@@ -27,3 +27,8 @@ pub fn ierfc(a: f64) -> f64 {
 pub fn atanh_ratio(s2: f64) -> f64 {
     if s2 == 0.0 { 1.0 } else { libm::atanh(s2.sqrt()) / s2.sqrt() }
 }
+
+/// arccos(x).
+pub fn arc_cosine(x: f64) -> f64 {
+    libm::acos(x)
+}

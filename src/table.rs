@@ -19,12 +19,14 @@ pub struct Provenance {
     pub table: &'static str,
     /// What it is for.
     pub equation: &'static str,
-    /// The distribution of normals.
+    /// The lobe.
     pub model: String,
-    /// The masking term.
-    pub masking: String,
-    /// Fresnel.
-    pub fresnel: &'static str,
+    /// The masking term of a specular lobe.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub masking: Option<String>,
+    /// Fresnel of a specular lobe.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fresnel: Option<&'static str>,
     /// Reflectance at normal incidence, where the table is for one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub f0: Option<f64>,

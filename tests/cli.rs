@@ -99,6 +99,9 @@ fn every_choice_bakes() {
         "--tolerance 1e-12 -o i.exr",
         "--model beckmann --masking separable -o j.exr",
         "--lut energy -o o.exr",
+        "--lut sheen -o t.exr",
+        "--lut diffuse -o u.exr",
+        "--lut diffuse --model eon --x roughness -o v.exr",
         "--lut energy --channels average --size 1x8 -o p.exr",
         "--lut energy --channels kulla-conty --model beckmann -o q.exr",
         "--lut energy --channels turquin -o r.exr",
@@ -189,7 +192,11 @@ fn wrong_values_are_refused_with_what_was_expected() {
     refused("bake --model charlie --masking height-correlated --x nov,edges", 4, &["n.v > 0", "min=1e-4"]);
     refused("bake --model charlie --tolerance 1e-8", 4, &["from 2e-6 to 0.1"]);
     refused("bake --model beckmann --rule l128", 4, &["begins with h"]);
-    refused("bake --lut sheen", 4, &["dfg", "got 'sheen'"]);
+    refused("bake --lut velvet", 4, &["dfg, sheen", "got 'velvet'"]);
+    refused("bake --lut diffuse --model ggx", 4, &["burley", "got 'ggx'"]);
+    refused("bake --lut diffuse --masking implicit", 4, &["leave them out"]);
+    refused("bake --lut diffuse --rule h288", 4, &["closed-form"]);
+    refused("bake --rule closed-form", 4, &["begins with h"]);
     refused("bake --f0 0.04", 4, &["energy where f0", "'dfg'"]);
     refused("bake --lut energy --f0 1", 4, &["less than 1"]);
     refused("bake --lut energy --f0 nan", 4, &["expected 0 to 1"]);

@@ -123,7 +123,7 @@ fn average_albedos_are_the_published_ones() {
 
 #[test]
 fn smooth_is_a_mirror() {
-    for rule in RULES {
+    for rule in RULES.into_iter().filter(|rule| rule.applies_to(ggx(Masking::HeightCorrelated))) {
         let integrator = rule.integrator();
         for mu in [0.0, 1e-6, 0.3, 1.0_f64] {
             let value = integrator.integrate(ggx(Masking::HeightCorrelated), mu, 0.0);

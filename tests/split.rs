@@ -1,5 +1,5 @@
 //! The energy between specular and diffuse reflection: averages, what multiple scattering gives back, what a base may get.
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
 

@@ -2,7 +2,8 @@
 //! sizes that the host needs read off the result.
 
 use crate::error::{Error, Result};
-use crate::model::{Masking, Microfacet, Ndf};
+use crate::integrate::Integrand;
+use crate::model::{Diffuse, Masking, Microfacet, Ndf};
 use crate::quadrature::slope_map::Power;
 use naga::back::spv;
 use naga::valid::{Capabilities, ShaderStages, SubgroupOperationSet, ValidationFlags, Validator};
@@ -21,16 +22,20 @@ pub mod wgsl {
     pub const BLINN_PHONG: &str = include_str!("../../shaders/blinn_phong.wgsl");
     /// Twin of `model::charlie`.
     pub const CHARLIE: &str = include_str!("../../shaders/charlie.wgsl");
+    /// Twin of `model::diffuse`.
+    pub const DIFFUSE: &str = include_str!("../../shaders/diffuse.wgsl");
     /// Twin of `model::masking`.
     pub const MASKING: &str = include_str!("../../shaders/masking.wgsl");
     /// Twin of `quadrature::slope_map`.
     pub const SLOPE_MAP: &str = include_str!("../../shaders/slope_map.wgsl");
+    /// The counts and the nodes of a rule.
+    pub const RULE: &str = include_str!("../../shaders/rule.wgsl");
     /// Twin of `integrate::h_space`.
     pub const H_SPACE: &str = include_str!("../../shaders/h_space.wgsl");
     /// Twin of `integrate`.
     pub const INTEGRATE: &str = include_str!("../../shaders/integrate.wgsl");
-    /// The entry point of a DFG bake.
-    pub const DFG: &str = include_str!("../../shaders/dfg.wgsl");
+    /// The entry point of a bake.
+    pub const BAKE: &str = include_str!("../../shaders/bake.wgsl");
 }
 
 /// A compiled compute shader and what the host has to know of it.
@@ -46,7 +51,7 @@ pub struct Kernel {
     pub push_bytes: u32,
 }
 
-/// The WGSL that integrates a lobe: every function but an entry point.
+/// The WGSL that integrates a lobe over half vectors.
 pub fn lobe_source(lobe: Microfacet, power: Power) -> String {
     // Tails are cut where exp(-20) = 2e-9 of a lobe lies beyond; a slope of 1e9 squares to far less than f32 holds.
     let (width, end, density, smith) = match lobe.ndf {
@@ -89,12 +94,28 @@ fn smooth_limit(mu: f32) -> f32 {{ return {limit}; }}
 "
     );
     let models = [wgsl::FRESNEL, wgsl::GGX, wgsl::BECKMANN, wgsl::BLINN_PHONG, wgsl::CHARLIE, wgsl::MASKING].join("\n");
-    [wgsl::SPECIAL, &models, wgsl::SLOPE_MAP, wgsl::H_SPACE, wgsl::INTEGRATE, &glue].join("\n")
+    [wgsl::SPECIAL, &models, wgsl::RULE, wgsl::SLOPE_MAP, wgsl::H_SPACE, &glue].join("\n")
 }
 
-/// The shader that bakes (A, B) of a lobe.
-pub fn dfg_kernel(lobe: Microfacet, power: Power) -> Result<Kernel> {
-    compile(&[&lobe_source(lobe, power), wgsl::DFG].join("\n"))
+/// The shader that bakes the numbers of an integrand.
+pub fn bake_kernel(integrand: Integrand, power: Power) -> Result<Kernel> {
+    match integrand {
+        Integrand::Specular(lobe) => compile(&[&lobe_source(lobe, power), wgsl::INTEGRATE, wgsl::BAKE].join("\n")),
+        Integrand::Diffuse(diffuse) => compile(&[&diffuse_source(diffuse), wgsl::BAKE].join("\n")),
+    }
+}
+
+/// The WGSL that gives a diffuse lobe's albedo under the name that a bake calls.
+fn diffuse_source(diffuse: Diffuse) -> String {
+    let albedo = match diffuse {
+        Diffuse::Lambert => "lambert_albedo()",
+        Diffuse::Burley => "burley_albedo(mu, sqrt(alpha))",
+        Diffuse::OrenNayar => "oren_nayar_albedo(mu, sqrt(alpha))",
+        Diffuse::Eon => "eon_albedo(mu, sqrt(alpha))",
+    };
+    let glue =
+        format!("fn integrate(mu: f32, alpha: f32, rule: Rule) -> vec2<f32> {{ return vec2<f32>({albedo}, 0.0); }}");
+    [wgsl::SPECIAL, wgsl::FRESNEL, wgsl::DIFFUSE, wgsl::RULE, &glue].join("\n")
 }
 
 /// Compiles WGSL whose compute entry point is `main`.

@@ -17,13 +17,15 @@ use std::path::Path;
 #[derive(Clone, Debug, Default, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct TableArgs {
-    /// Family of tables: dfg, the split sum's E(F0) = F0*A + B (Karis 2013); energy, what a specular lobe leaves for a
-    /// diffuse base and loses between its facets (Kulla and Conty 2017; Turquin 2019) [default: dfg]
+    /// Family of tables: dfg, the split sum's E(F0) = F0*A + B (Karis 2013); sheen, the same with charlie and E alone;
+    /// energy, what a specular lobe leaves for a diffuse base and loses between its facets (Kulla and Conty 2017; Turquin
+    /// 2019); diffuse, the albedo of a white diffuse lobe [default: dfg]
     #[arg(long, value_name = "NAME")]
     pub lut: Option<String>,
     /// Distribution of normals: ggx (Walter et al. 2007), beckmann (with the exact Smith term), beckmann-walter (with
     /// Walter's rational one), blinn-phong (n = 2/alpha^2 - 2; Blinn 1977), charlie (sheen; Estevez and Kulla 2017)
-    /// [default: ggx]
+    /// [default: ggx]. Of diffuse: lambert, burley (2012), oren-nayar (1994, qualitative), eon (2025, its single
+    /// scattering) [default: burley]
     #[arg(long, value_name = "NAME")]
     pub model: Option<String>,
     /// Masking: height-correlated or separable (Smith; Heitz 2014), schlick-smith (k = alpha/2; Karis 2013), joint
@@ -114,24 +116,37 @@ impl TableArgs {
     }
 
     fn lut(&self) -> Result<Lut> {
-        let ndf: Ndf = choice("model", self.model.as_deref().unwrap_or("ggx"))?;
-        let masking = self.masking.as_deref().map_or(Ok(ndf.default_masking()), |name| choice("masking", name))?;
-        let lobe = Microfacet { ndf, masking };
         let family = self.lut.as_deref().unwrap_or("dfg");
         if family != "energy" && (self.f0.is_some() || self.ior.is_some()) {
-            let cure = "leave out f0 and ior: a dfg table serves every F0";
+            let cure = "leave out f0 and ior: the other tables serve every F0";
             return Err(Error::bad_input("lut", "energy where f0 or ior is given", format!("'{family}'"), cure));
         }
+        let channels = |default| self.channels.as_deref().unwrap_or(default);
         match family {
-            "dfg" => {
-                Ok(Lut::Dfg(Dfg { lobe, channels: choice("channels", self.channels.as_deref().unwrap_or("ab"))? }))
-            }
+            "dfg" => Ok(Lut::Dfg(Dfg { lobe: self.lobe("ggx")?, channels: choice("channels", channels("ab"))? })),
+            "sheen" => Ok(Lut::Dfg(Dfg { lobe: self.lobe("charlie")?, channels: choice("channels", channels("e"))? })),
             "energy" => {
-                let channels = choice("channels", self.channels.as_deref().unwrap_or("split"))?;
-                Ok(Lut::Energy(Energy::new(lobe, self.f0()?, channels)?))
+                let channels = choice("channels", channels("split"))?;
+                Ok(Lut::Energy(Energy::new(self.lobe("ggx")?, self.f0()?, channels)?))
             }
-            other => Err(Error::bad_input("lut", "dfg or energy", format!("'{other}'"), "name one of these")),
+            "diffuse" => {
+                if self.masking.is_some() || self.channels.is_some() {
+                    let got = "masking or channels";
+                    return Err(Error::bad_input("lut", "a model alone for diffuse", got, "leave them out"));
+                }
+                Ok(Lut::Diffuse(choice("model", self.model.as_deref().unwrap_or("burley"))?))
+            }
+            other => {
+                let expected = "dfg, sheen, energy or diffuse";
+                Err(Error::bad_input("lut", expected, format!("'{other}'"), "name one of these"))
+            }
         }
+    }
+
+    fn lobe(&self, default: &str) -> Result<Microfacet> {
+        let ndf: Ndf = choice("model", self.model.as_deref().unwrap_or(default))?;
+        let masking = self.masking.as_deref().map_or(Ok(ndf.default_masking()), |name| choice("masking", name))?;
+        Ok(Microfacet { ndf, masking })
     }
 
     fn f0(&self) -> Result<F0> {

@@ -1,9 +1,9 @@
 //! The quadrature rules by name, each with the bound of its error: what a tolerance picks from.
 
-use super::ScaleBias;
 use super::h_space::{HSpaceNodes, HSpaceRule, h_space};
 use super::l_space::{LSpaceNodes, LSpaceRule, l_space, l_space_applies};
 use super::reference::{ReferenceNodes, ReferenceRule, reference};
+use super::{Integrand, ScaleBias};
 use crate::error::{Error, Result};
 use crate::model::{Masking, Microfacet, Ndf};
 use crate::quadrature::slope_map::Power;
@@ -17,6 +17,8 @@ pub enum Method {
     LSpace(LSpaceRule),
     /// Double exponential: any lobe, CPU.
     Reference(ReferenceRule),
+    /// No quadrature: diffuse lobes.
+    ClosedForm,
 }
 
 /// A rule and what it promises.
@@ -32,9 +34,9 @@ pub struct Rule {
 
 /// What f32 arithmetic may add to a rule's error on a device: 9e-7 (8e-7 were measured with correctly rounded ÷ and √).
 /// Charlie's fitted Λ is the exponential of numbers up to 20, whose rounding alone is 1e-6 of it (4e-6 were measured).
-pub fn f32_arithmetic(lobe: Microfacet) -> f64 {
-    match (lobe.ndf, lobe.masking) {
-        (Ndf::Charlie, Masking::HeightCorrelated) => 6e-6,
+pub fn f32_arithmetic(integrand: impl Into<Integrand>) -> f64 {
+    match integrand.into() {
+        Integrand::Specular(Microfacet { ndf: Ndf::Charlie, masking: Masking::HeightCorrelated }) => 6e-6,
         _ => 9e-7,
     }
 }
@@ -45,7 +47,8 @@ pub fn f32_arithmetic(lobe: Microfacet) -> f64 {
 /// edge, for every masking, then rounded up by a third or more; `tests/quadrature.rs` repeats it. Walter's Λ jumps, which no
 /// rule over half vectors resolves. Below r = 0.07 Charlie's ring lies so near the horizon that the reference itself keeps
 /// only 2e-6; above, it keeps 1e-13.
-pub const RULES: [Rule; 12] = [
+pub const RULES: [Rule; 13] = [
+    Rule { name: "closed-form", method: Method::ClosedForm, bounds: [f64::INFINITY; Ndf::ALL.len()] },
     h("h56", [8, 3, 8, 4], Power::Two, [1e-3, 2e-3, 3e-3, 2e-2, 4e-2]),
     h("h130", [12, 5, 14, 5], Power::Four, [1e-4, 1e-4, 5e-4, 1e-3, 2e-2]),
     h("h288", [16, 8, 20, 8], Power::Four, [1e-5, 1e-5, 1.5e-4, 4e-5, 3e-3]),
@@ -61,7 +64,7 @@ pub const RULES: [Rule; 12] = [
 ];
 
 /// The rule that tables are measured against.
-pub const REFERENCE: Rule = RULES[7];
+pub const REFERENCE: Rule = RULES[8];
 
 /// The rule that tables by [`REFERENCE`] itself are measured against.
 const FINER_REFERENCE: Rule = reference_rule(240, 220);
@@ -93,13 +96,25 @@ impl Rule {
     }
 
     /// The cheapest rule whose error stays within `tolerance` when the arithmetic may add `arithmetic`.
-    pub fn for_tolerance(lobe: Microfacet, tolerance: f64, arithmetic: f64) -> Option<Rule> {
-        RULES[..8].iter().copied().find(|rule| rule.bound(lobe) + arithmetic <= tolerance)
+    pub fn for_tolerance(integrand: impl Into<Integrand>, tolerance: f64, arithmetic: f64) -> Option<Rule> {
+        let integrand = integrand.into();
+        let serves = |rule: &Rule| rule.applies_to(integrand) && rule.bound(integrand) + arithmetic <= tolerance;
+        RULES[..9].iter().copied().find(serves)
     }
 
     /// The largest error of A and of B over the whole domain, in exact arithmetic: absolute, or of albedos above 1 relative.
-    pub fn bound(&self, lobe: Microfacet) -> f64 {
-        self.bounds[lobe.ndf as usize]
+    pub fn bound(&self, integrand: impl Into<Integrand>) -> f64 {
+        match integrand.into() {
+            Integrand::Specular(lobe) => self.bounds[lobe.ndf as usize],
+            Integrand::Diffuse(_) if self.method == Method::ClosedForm => 1e-15,
+            Integrand::Diffuse(_) => f64::INFINITY,
+        }
+    }
+
+    /// The smallest error that any rule promises.
+    pub fn sharpest_bound(integrand: impl Into<Integrand>) -> f64 {
+        let integrand = integrand.into();
+        RULES.iter().map(|rule| rule.bound(integrand)).fold(f64::INFINITY, f64::min)
     }
 
     /// Evaluations of the integrand for a texel; none are counted for the reference.
@@ -108,22 +123,32 @@ impl Rule {
             Method::HSpace(rule) => Some(rule.evaluations()),
             Method::LSpace(rule) => Some(rule.evaluations()),
             Method::Reference(_) => None,
+            Method::ClosedForm => Some(1),
         }
     }
 
     /// Whether a device can run it.
     pub fn runs_on_device(&self) -> bool {
-        matches!(self.method, Method::HSpace(_))
+        matches!(self.method, Method::HSpace(_) | Method::ClosedForm)
     }
 
-    /// Whether it can integrate a lobe.
-    pub fn applies_to(&self, lobe: Microfacet) -> bool {
-        !matches!(self.method, Method::LSpace(_)) || l_space_applies(lobe)
+    /// Whether it serves for an integrand.
+    pub fn applies_to(&self, integrand: impl Into<Integrand>) -> bool {
+        match (self.method, integrand.into()) {
+            (Method::ClosedForm, Integrand::Diffuse(_)) => true,
+            (Method::ClosedForm, _) | (_, Integrand::Diffuse(_)) => false,
+            (Method::LSpace(_), Integrand::Specular(lobe)) => l_space_applies(lobe),
+            _ => true,
+        }
     }
 
     /// The rule that a table by this one is measured against.
     pub fn yardstick(&self) -> Rule {
-        if *self == REFERENCE { FINER_REFERENCE } else { REFERENCE }
+        match self.method {
+            Method::ClosedForm => *self,
+            Method::Reference(_) => FINER_REFERENCE,
+            _ => REFERENCE,
+        }
     }
 
     /// The rule with its nodes worked out, ready to integrate.
@@ -132,6 +157,7 @@ impl Rule {
             Method::HSpace(rule) => Integrator::HSpace(rule.nodes()),
             Method::LSpace(rule) => Integrator::LSpace(rule.nodes()),
             Method::Reference(rule) => Integrator::Reference(rule.nodes()),
+            Method::ClosedForm => Integrator::ClosedForm,
         }
     }
 }
@@ -145,11 +171,18 @@ pub enum Integrator {
     LSpace(LSpaceNodes),
     /// Of the reference.
     Reference(ReferenceNodes),
+    /// None.
+    ClosedForm,
 }
 
 impl Integrator {
-    /// (A, B) at n·v = `mu` and `alpha`, both in [0, 1]; α = 0 is the limit of a mirror, also at n·v = 0.
-    pub fn integrate(&self, lobe: Microfacet, mu: f64, alpha: f64) -> ScaleBias {
+    /// (A, B) at n·v = `mu` and `alpha`, both in [0, 1]; α = 0 is the limit of a mirror, also at n·v = 0. NaN where the rule
+    /// does not apply.
+    pub fn integrate(&self, integrand: impl Into<Integrand>, mu: f64, alpha: f64) -> ScaleBias {
+        let lobe = match integrand.into() {
+            Integrand::Diffuse(diffuse) => return ScaleBias { a: diffuse.albedo(mu, alpha.sqrt()), b: 0.0 },
+            Integrand::Specular(lobe) => lobe,
+        };
         if alpha == 0.0 {
             return ScaleBias::mirror(mu, lobe.smooth_limit(mu));
         }
@@ -157,6 +190,7 @@ impl Integrator {
             Integrator::HSpace(nodes) => h_space(lobe, mu, alpha, nodes),
             Integrator::LSpace(nodes) => l_space(lobe, mu, alpha, nodes),
             Integrator::Reference(nodes) => reference(lobe, mu, alpha, nodes),
+            Integrator::ClosedForm => ScaleBias { a: f64::NAN, b: f64::NAN },
         }
     }
 }

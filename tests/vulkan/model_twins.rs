@@ -4,10 +4,11 @@ use crate::twins::{Twin, small, unit};
 use splitsum::model::beckmann::{beckmann_slope_density, beckmann_smith, beckmann_width, walter_smith};
 use splitsum::model::blinn_phong::{blinn_phong_end, blinn_phong_slope_density};
 use splitsum::model::charlie::{charlie_fit, charlie_slope_density, charlie_smith, charlie_width};
+use splitsum::model::diffuse::{burley_albedo, eon_albedo, lambert_albedo, oren_nayar_albedo};
 use splitsum::model::fresnel::schlick_weight;
 use splitsum::model::ggx::{ggx_slope_density, ggx_smith};
 use splitsum::model::masking::{height_correlated, implicit, joint_smith, neubelt, schlick_smith, separable};
-use splitsum::special::{atanh_ratio, exponential, ierfc, log1p_ratio, logarithm};
+use splitsum::special::{arc_cosine, atanh_ratio, exponential, ierfc, log1p_ratio, logarithm};
 
 pub fn twins() -> Vec<Twin> {
     let four = |f: fn([f64; 4]) -> f64| move |a| [f(a), 0.0, 0.0, 0.0];
@@ -137,6 +138,24 @@ pub fn twins() -> Vec<Twin> {
             // The fit is a sum of numbers up to 25, and an error of it is one of the power.
             ulps: 50.0,
             scale: 1.0,
+        },
+        Twin {
+            name: "arc_cosine",
+            wgsl: "vec4(arc_cosine(p.x), 0.0, 0.0, 0.0)",
+            rust: Box::new(four(|a| arc_cosine(a[0]))),
+            arguments: |random| [unit(random), 0.0, 0.0, 0.0],
+            ulps: 6.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "burley_albedo, oren_nayar_albedo, eon_albedo, lambert_albedo",
+            wgsl: "vec4(burley_albedo(p.x, p.y), oren_nayar_albedo(p.x, p.y), eon_albedo(p.x, p.y), lambert_albedo())",
+            rust: Box::new(|[mu, r, ..]| {
+                [burley_albedo(mu, r), oren_nayar_albedo(mu, r), eon_albedo(mu, r), lambert_albedo()]
+            }),
+            arguments: |random| [unit(random), unit(random), 0.0, 0.0],
+            ulps: 6.0,
+            scale: 0.0,
         },
         Twin {
             name: "joint_smith, implicit, neubelt",

@@ -4,7 +4,7 @@ use crate::DeviceTest;
 use crate::common::{ggx, missing};
 use libtest_mimic::{Failed, Trial};
 use splitsum::axis::Axis;
-use splitsum::backend::shader::dfg_kernel;
+use splitsum::backend::shader::bake_kernel;
 use splitsum::backend::vulkan::bake::bake;
 use splitsum::backend::vulkan::devices::list_devices;
 use splitsum::backend::vulkan::gpu::{Gpu, GpuOptions};
@@ -14,7 +14,7 @@ use splitsum::integrate::ScaleBias;
 use splitsum::integrate::h_space::HSpaceRule;
 use splitsum::integrate::rule::{Method, RULES, Rule, f32_arithmetic};
 use splitsum::lut::{Energy, EnergyChannels, Grid, Lut};
-use splitsum::model::{Masking, Microfacet};
+use splitsum::model::{Diffuse, Masking, Microfacet};
 use splitsum::precision::Precision;
 use splitsum::quadrature::slope_map::Power;
 use splitsum::request::{Accuracy, Request};
@@ -26,7 +26,7 @@ pub const TESTS: &[DeviceTest] = &[
     ("tables are within 1e-6 of f64 at every texel", tables_are_within_1e_6),
     ("every rule runs and passes the cross-check", every_rule_runs),
     ("the closed domain has no holes", the_closed_domain_has_no_holes),
-    ("energy tables are those of the CPU", energy_tables_are_those_of_the_cpu),
+    ("energy and diffuse tables are those of the CPU", other_tables_are_those_of_the_cpu),
     ("tile sizes do not change a bit", tile_sizes_do_not_change_a_bit),
     ("a table beyond the storage-buffer limit bakes", a_table_beyond_the_limit_bakes),
 ];
@@ -88,19 +88,22 @@ fn every_rule_runs(gpu: &Gpu) -> Result<(), Failed> {
     Ok(())
 }
 
-fn energy_tables_are_those_of_the_cpu(gpu: &Gpu) -> Result<(), Failed> {
+fn other_tables_are_those_of_the_cpu(gpu: &Gpu) -> Result<(), Failed> {
     let axis = |words: &str| Axis::new(words.parse().unwrap(), 12).unwrap();
     let options = GpuOptions { device: Some(gpu.info().uuid.clone()), ..GpuOptions::default() };
     let (device, cpu) = (Backend::open(BackendChoice::Vulkan, &options)?, Backend::cpu());
-    for channels in [EnergyChannels::Average, EnergyChannels::KullaConty, EnergyChannels::Split] {
-        let lut = Lut::Energy(Energy::new(ggx(Masking::HeightCorrelated), F0::new(0.04)?, channels)?);
-        let rule = Accuracy::Rule(Rule::named("h2144")?);
-        let request = Request::new(lut, axis("nov,edges"), axis("roughness,edges"), rule, Precision::F32)?;
+    let energy = [EnergyChannels::Average, EnergyChannels::KullaConty, EnergyChannels::Split].map(|channels| {
+        let (lobe, f0) = (ggx(Masking::HeightCorrelated), F0::new(0.04).unwrap());
+        Lut::Energy(Energy::new(lobe, f0, channels).unwrap())
+    });
+    for lut in energy.into_iter().chain(Diffuse::ALL.map(Lut::Diffuse)) {
+        let request =
+            Request::new(lut, axis("nov,edges"), axis("roughness,edges"), Accuracy::Tolerance(1e-6), Precision::F32)?;
         let [device, cpu] = [&device, &cpu].map(|backend| splitsum::bake(&request, backend, &|_| ()));
         let (device, cpu) = (device?.table.values, cpu?.table.values);
         // Sums of A and B, each within 1e-6; the division by √(1-E_avg) is by 0.95 here.
         let difference = Difference::between(device.into_iter().zip(cpu));
-        assert!(difference.max <= 2.2e-6, "{channels:?}: {difference:?}");
+        assert!(difference.max <= 2.2e-6, "{lut:?}: {difference:?}");
     }
     Ok(())
 }
@@ -170,7 +173,7 @@ fn spirv_val() -> Trial {
         for lobe in Microfacet::all() {
             for power in [Power::Two, Power::Four] {
                 let mut file = tempfile::NamedTempFile::new()?;
-                let spirv = dfg_kernel(lobe, power)?.spirv;
+                let spirv = bake_kernel(lobe.into(), power)?.spirv;
                 std::io::Write::write_all(&mut file, bytemuck::cast_slice(&spirv))?;
                 let output = Command::new("spirv-val").args(["--target-env", "vulkan1.1"]).arg(file.path()).output()?;
                 if !output.status.success() {

@@ -3,7 +3,7 @@
 use crate::common::{Random, ggx};
 use crate::{DeviceTest, model_twins};
 use libtest_mimic::Failed;
-use splitsum::backend::shader::{compile, lobe_source};
+use splitsum::backend::shader::{compile, lobe_source, wgsl};
 use splitsum::backend::vulkan::bake::node_data;
 use splitsum::backend::vulkan::buffer::Buffer;
 use splitsum::backend::vulkan::gpu::Gpu;
@@ -275,7 +275,8 @@ fn compare(gpu: &Gpu, lobe: Microfacet, nodes: &HSpaceNodes, twin: &Twin) -> Res
         }}",
         twin.wgsl
     );
-    let kernel = compile(&[&lobe_source(lobe, nodes.power), HELPERS, &entry].join("\n"))?;
+    let kernel =
+        compile(&[&lobe_source(lobe, nodes.power), wgsl::DIFFUSE, wgsl::INTEGRATE, HELPERS, &entry].join("\n"))?;
     let node_buffer = Buffer::with(gpu, &node_data(nodes))?;
     let input = Buffer::with(gpu, &arguments)?;
     let output = Buffer::new(gpu, 16 * COUNT)?;

@@ -4,12 +4,11 @@ use super::buffer::Buffer;
 use super::gpu::Gpu;
 use super::pipeline::Pipeline;
 use crate::backend::Progress;
-use crate::backend::shader::dfg_kernel;
+use crate::backend::shader::bake_kernel;
 use crate::error::{Error, Result};
-use crate::integrate::ScaleBias;
 use crate::integrate::h_space::{HSpaceNodes, HSpaceRule};
+use crate::integrate::{Integrand, ScaleBias};
 use crate::lut::Grid;
-use crate::model::Microfacet;
 use std::time::Duration;
 
 /// What a dispatch aims at. Watchdogs strike at 2 s and more; 40 ms leaves room for a texel mix fifty times as dear.
@@ -24,9 +23,15 @@ const LARGEST_TILE: usize = 1 << 22;
 /// What lies in the results before the device writes them: a NaN that no arithmetic makes.
 const POISON: [u32; 2] = [0x7fc0_dead; 2];
 
-/// (A, B) at every point of the grid, in its order, integrated by `rule` in f32.
-pub fn bake(gpu: &Gpu, lobe: Microfacet, grid: &Grid, rule: &HSpaceRule, progress: Progress) -> Result<Vec<ScaleBias>> {
-    let kernel = dfg_kernel(lobe, rule.power)?;
+/// (A, B) at every point of the grid, in its order, integrated by `rule` in f32; a diffuse lobe takes no notice of the rule.
+pub fn bake(
+    gpu: &Gpu,
+    integrand: impl Into<Integrand>,
+    grid: &Grid,
+    rule: &HSpaceRule,
+    progress: Progress,
+) -> Result<Vec<ScaleBias>> {
+    let kernel = bake_kernel(integrand.into(), rule.power)?;
     let group = kernel.workgroup;
     let largest = largest_tile(gpu, group).min(grid.len());
     let mut tile = gpu.options().tile.unwrap_or(FIRST_TILE).clamp(1, largest);

@@ -1,4 +1,4 @@
-// The entry point that bakes (A, B) for a range of a grid's texels, one invocation each: see src/backend/vulkan/bake.rs.
+// The entry point that bakes the numbers of a range of a grid's texels, one invocation each: see src/backend/vulkan/bake.rs.
 
 @group(0) @binding(1) var<storage, read> mus: array<f32>;
 @group(0) @binding(2) var<storage, read> alphas: array<f32>;
