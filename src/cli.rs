@@ -5,6 +5,7 @@ mod bake;
 mod config;
 mod depfile;
 mod devices;
+mod furnace;
 mod output;
 mod progress;
 mod table_args;
@@ -26,6 +27,8 @@ struct Cli {
 enum Command {
     /// Bake a table, or all tables of a configuration
     Bake(Box<bake::BakeArgs>),
+    /// Report how much energy a material gives back in a white furnace
+    Furnace(furnace::FurnaceArgs),
     /// List the Vulkan devices, the preferred one first
     Devices(devices::DevicesArgs),
 }
@@ -45,6 +48,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     };
     let outcome = match cli.command {
         Command::Bake(arguments) => bake::run(*arguments),
+        Command::Furnace(arguments) => furnace::run(&arguments),
         Command::Devices(arguments) => devices::run(&arguments),
     };
     match outcome {

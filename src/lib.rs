@@ -22,7 +22,8 @@
 //! - [`request`]: a checked job, which prints itself as the command that repeats it
 //! - [`backend`]: the CPU, the shaders, the Vulkan host
 //! - [`certify`]: a device's table against the CPU, any table against the reference
-//! - [`report`]: what is said of a bake
+//! - [`furnace`]: what a material gives back in a white furnace
+//! - [`report`]: what is said of a bake; pictures
 //! - [`encode`]: a table as the bytes of a file
 //! - `cli`: flags and configurations to requests; files and terminals
 //!
@@ -56,6 +57,7 @@ pub mod lut;
 pub mod request;
 pub mod backend;
 pub mod certify;
+pub mod furnace;
 pub mod report;
 pub mod encode;
 pub mod cli;
@@ -101,7 +103,8 @@ pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<
     let mut integrals = Integrals { points: job.run(&grid, progress, &mut checked)?, averages: Vec::new() };
     if request.lut.needs_averages() {
         let nodes = average_nodes();
-        let rows = job.run(&grid.of_averages(), &|_| (), &mut checked)?;
+        let directions = grid.at_directions(nodes.iter().map(|node| node.0).collect());
+        let rows = job.run(&directions, &|_| (), &mut checked)?;
         integrals.averages = rows.chunks(nodes.len()).map(|row| average(&nodes, row)).collect();
     }
     let computed = match gpu {

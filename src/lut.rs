@@ -9,7 +9,6 @@ pub use energy::{Energy, EnergyChannels};
 
 use crate::axis::{Axis, Parameter};
 use crate::error::{Error, Result};
-use crate::integrate::average::average_nodes;
 use crate::integrate::{Integrand, ScaleBias};
 use crate::model::blinn_phong::alpha_of_exponent;
 use crate::model::{Diffuse, Microfacet, Ndf};
@@ -158,9 +157,9 @@ impl Grid {
         self.len() == 0
     }
 
-    /// The directions of the averages instead of the table's, for the same α.
-    pub fn of_averages(&self) -> Grid {
-        Grid { mus: average_nodes().into_iter().map(|(mu, _)| mu).collect(), ..self.clone() }
+    /// Other directions for the same α.
+    pub fn at_directions(&self, mus: Vec<f64>) -> Grid {
+        Grid { mus, ..self.clone() }
     }
 
     /// (n·v, α) of point `index`.

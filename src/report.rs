@@ -1,4 +1,6 @@
-//! What is said of a bake: for people a few lines, for programs JSON.
+//! What is said of a bake: for people a few lines, for programs JSON; and pictures of numbers.
+
+pub mod map;
 
 use crate::backend::vulkan::devices::DeviceInfo;
 use crate::certify::Deviation;

@@ -85,20 +85,21 @@ impl Request {
 
 /// Refuses what means nothing, or has no finite value.
 fn check_lobe(lobe: Microfacet, grid: &Grid) -> Result<()> {
-    let Microfacet { ndf, masking } = lobe;
+    check_masking(lobe)?;
+    if lobe.diverges_at_grazing() && grid.mus.contains(&0.0) {
+        let (got, cure) =
+            ("n.v = 0, where this albedo is infinite", "add min=1e-4 to the axis, or choose texel centres");
+        return Err(Error::bad_input("axis of n.v", "n.v > 0", got, cure));
+    }
+    Ok(())
+}
+
+/// Refuses a masking term that means nothing for the distribution.
+pub fn check_masking(Microfacet { ndf, masking }: Microfacet) -> Result<()> {
     if !ndf.maskings().contains(&masking) {
         let expected = ndf.maskings().iter().map(word).collect::<Vec<_>>().join(", ");
         let what = format!("masking of {}", word(ndf));
         return Err(Error::bad_input(what, expected, word(masking), "name one that means something for the model"));
-    }
-    if lobe.diverges_at_grazing() && grid.mus.contains(&0.0) {
-        let got = "n.v = 0, where this albedo is infinite";
-        return Err(Error::bad_input(
-            "axis of n.v",
-            "n.v > 0",
-            got,
-            "add min=1e-4 to the axis, or choose texel centres",
-        ));
     }
     Ok(())
 }

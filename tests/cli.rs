@@ -317,9 +317,28 @@ fn links_and_permissions_are_kept() {
 }
 
 #[test]
+fn a_furnace_is_reported_and_drawn() {
+    let folder = tempdir().unwrap();
+    let text = String::from_utf8(ok(&folder, "furnace --size 8 -o furnace.png").stdout).unwrap();
+    assert!(text.contains("0.04  naive         0.0857") && text.contains("0.04  reciprocal    1.0000"), "{text}");
+    assert!(fs::read(folder.path().join("furnace.png")).unwrap().starts_with(b"\x89PNG"));
+    let json =
+        ok(&folder, "furnace --size 8 --json --multiple-scattering turquin --diffuse burley --model beckmann").stdout;
+    let report: serde_json::Value = serde_json::from_slice(&json).unwrap();
+    // Five F0 by two splits: the reciprocal one is for Lambert alone.
+    assert_eq!(report["furnaces"].as_array().unwrap().len(), 10);
+    assert_eq!(report["furnaces"][1]["split"], "albedo");
+    refused("furnace --size 1", 4, &["2 to 1024"]);
+    refused("furnace --model charlie", 4, &["albedo stays below 1"]);
+    refused("furnace --model ggx --masking neubelt", 4, &["height-correlated"]);
+    refused("furnace --multiple-scattering magic", 4, &["kulla-conty", "'magic'"]);
+    refused("furnace -o furnace.exr", 4, &[".png"]);
+}
+
+#[test]
 fn help_tells_the_exit_codes() {
     let folder = tempdir().unwrap();
-    for arguments in ["--help", "bake --help", "devices --help"] {
+    for arguments in ["--help", "bake --help", "furnace --help", "devices --help"] {
         let text = String::from_utf8(ok(&folder, arguments).stdout).unwrap();
         for (code, meaning) in splitsum::error::ExitCode::MEANINGS {
             assert!(text.contains(&format!("{}  {meaning}", code as u8)), "{arguments}: no {meaning}");

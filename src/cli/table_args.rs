@@ -7,7 +7,7 @@ use crate::integrate::rule::Rule;
 use crate::lut::{Dfg, Energy, Lut};
 use crate::model::{Microfacet, Ndf};
 use crate::precision::Precision;
-use crate::request::{Accuracy, DEFAULT_SIZE, Request};
+use crate::request::{Accuracy, DEFAULT_SIZE, Request, check_masking};
 use crate::units::{F0, Ior};
 use serde::{Deserialize, de::DeserializeOwned};
 use std::fmt;
@@ -144,9 +144,7 @@ impl TableArgs {
     }
 
     fn lobe(&self, default: &str) -> Result<Microfacet> {
-        let ndf: Ndf = choice("model", self.model.as_deref().unwrap_or(default))?;
-        let masking = self.masking.as_deref().map_or(Ok(ndf.default_masking()), |name| choice("masking", name))?;
-        Ok(Microfacet { ndf, masking })
+        lobe(self.model.as_deref().unwrap_or(default), self.masking.as_deref())
     }
 
     fn f0(&self) -> Result<F0> {
@@ -219,8 +217,17 @@ impl From<String> for Size {
     }
 }
 
+/// The lobe of that model and masking, or of the model's default masking.
+pub fn lobe(model: &str, masking: Option<&str>) -> Result<Microfacet> {
+    let ndf: Ndf = choice("model", model)?;
+    let masking = masking.map_or(Ok(ndf.default_masking()), |name| choice("masking", name))?;
+    let lobe = Microfacet { ndf, masking };
+    check_masking(lobe)?;
+    Ok(lobe)
+}
+
 /// The variant of a choice that is spelled `text`.
-fn choice<T: DeserializeOwned>(what: &str, text: &str) -> Result<T> {
+pub fn choice<T: DeserializeOwned>(what: &str, text: &str) -> Result<T> {
     serde_json::from_value(text.into()).map_err(|error| {
         // serde says: unknown variant `x`, expected one of `a`, `b`
         let error = error.to_string();

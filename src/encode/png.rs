@@ -20,14 +20,24 @@ pub fn encode(table: &Table, precision: Precision) -> Result<Vec<u8>> {
             }
         }
     }
-    let text = metadata(table, precision)?;
+    write(table.x.size, table.y.size, depth, &data, Some(metadata(table, precision)?))
+}
+
+/// The bytes of a PNG file of 8-bit R, G, B, row by row.
+pub fn encode_rgb(width: usize, height: usize, rgb: &[u8]) -> Result<Vec<u8>> {
+    write(width, height, BitDepth::Eight, rgb, None)
+}
+
+fn write(width: usize, height: usize, depth: BitDepth, data: &[u8], text: Option<String>) -> Result<Vec<u8>> {
     let mut file = Vec::new();
     let write = || -> std::result::Result<(), EncodingError> {
-        let mut encoder = Encoder::new(&mut file, table.x.size as u32, table.y.size as u32);
+        let mut encoder = Encoder::new(&mut file, width as u32, height as u32);
         encoder.set_color(ColorType::Rgb);
         encoder.set_depth(depth);
-        encoder.add_itxt_chunk(KEY.into(), text)?;
-        encoder.write_header()?.write_image_data(&data)
+        if let Some(text) = text {
+            encoder.add_itxt_chunk(KEY.into(), text)?;
+        }
+        encoder.write_header()?.write_image_data(data)
     };
     write().map_err(|error| Error::Internal(format!("PNG: {error}")))?;
     Ok(file)
