@@ -7,6 +7,7 @@ mod depfile;
 mod devices;
 mod furnace;
 mod output;
+mod preview;
 mod progress;
 mod table_args;
 
@@ -29,6 +30,8 @@ enum Command {
     Bake(Box<bake::BakeArgs>),
     /// Report how much energy a material gives back in a white furnace
     Furnace(furnace::FurnaceArgs),
+    /// Render spheres lit by a light, a furnace or a sky
+    Preview(preview::PreviewArgs),
     /// List the Vulkan devices, the preferred one first
     Devices(devices::DevicesArgs),
 }
@@ -49,6 +52,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let outcome = match cli.command {
         Command::Bake(arguments) => bake::run(*arguments),
         Command::Furnace(arguments) => furnace::run(&arguments),
+        Command::Preview(arguments) => preview::run(&arguments),
         Command::Devices(arguments) => devices::run(&arguments),
     };
     match outcome {

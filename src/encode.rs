@@ -51,11 +51,15 @@ impl Format {
     }
 }
 
-/// The bytes of a file.
-pub fn encode(table: &Table, format: Format, precision: Precision) -> Result<Vec<u8>> {
-    match format {
-        Format::Exr => exr::encode(table, precision),
-        Format::Png => png::encode(table, precision),
+/// The bytes of a file of one table, or of several where the format has layers.
+pub fn encode(tables: &[Table], format: Format, precision: Precision) -> Result<Vec<u8>> {
+    match (format, tables) {
+        (Format::Exr, tables) => exr::encode(tables, precision),
+        (Format::Png, [table]) => png::encode(table, precision),
+        (Format::Png, _) => {
+            let (expected, got) = ("one table in a .png", format!("{} layers", tables.len()));
+            Err(Error::bad_input("layers", expected, got, "write an .exr, or one F0 at a time"))
+        }
     }
 }
 

@@ -24,6 +24,7 @@
 //! - [`certify`]: a device's table against the CPU, any table against the reference
 //! - [`furnace`]: what a material gives back in a white furnace
 //! - [`report`]: what is said of a bake; pictures
+//! - [`preview`]: spheres lit with tables and with integrals
 //! - [`encode`]: a table as the bytes of a file
 //! - `cli`: flags and configurations to requests; files and terminals
 //!
@@ -59,6 +60,7 @@ pub mod backend;
 pub mod certify;
 pub mod furnace;
 pub mod report;
+pub mod preview;
 pub mod encode;
 pub mod cli;
 

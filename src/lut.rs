@@ -45,6 +45,14 @@ impl Lut {
         }
     }
 
+    /// The F0 that the table is for, where it is for one.
+    pub fn f0(&self) -> Option<f64> {
+        match self {
+            Lut::Energy(energy) => Some(energy.f0.get()),
+            _ => None,
+        }
+    }
+
     /// Whether a texel needs the average over all directions too.
     pub fn needs_averages(&self) -> bool {
         matches!(self, Lut::Energy(_))
@@ -87,7 +95,7 @@ impl Lut {
         };
         match self {
             Lut::Dfg(dfg) => specular(dfg.lobe),
-            Lut::Energy(energy) => Provenance { f0: Some(energy.f0.get()), ..specular(energy.lobe) },
+            Lut::Energy(energy) => Provenance { f0: self.f0(), ..specular(energy.lobe) },
             Lut::Diffuse(model) => Provenance {
                 table: self.name(),
                 equation: diffuse::source(*model),

@@ -106,6 +106,7 @@ fn every_choice_bakes() {
         "--lut energy --channels kulla-conty --model beckmann -o q.exr",
         "--lut energy --channels turquin -o r.exr",
         "--lut energy --channels split --ior 1.33 -o s.exr",
+        "--lut energy --f0 0.02,0.04,0.08,0.5 -o w.exr",
         "--model beckmann-walter -o k.exr",
         "--model blinn-phong --y exponent,edges -o l.exr",
         "--model charlie --channels e -o m.exr",
@@ -131,13 +132,19 @@ fn a_configuration_bakes_several_tables_beside_itself() {
         masking = "separable"
         x = "roughness,edges"
         tolerance = 1e-4
+
+        [[table]]
+        output = "layers.exr"
+        size = 4
+        lut = "energy"
+        f0 = [0.02, 0.04]
     "#;
     fs::write(folder.path().join("assets/luts.toml"), text).unwrap();
     ok(&folder, "bake --backend cpu --config assets/luts.toml -MD");
     let assets = folder.path().join("assets");
     assert!(assets.join("dfg.exr").exists() && assets.join("sheared axes.png").exists());
     let rule = fs::read_to_string(assets.join("luts.toml.d")).unwrap();
-    assert_eq!(rule, "assets/dfg.exr assets/sheared\\ axes.png: assets/luts.toml\n");
+    assert_eq!(rule, "assets/dfg.exr assets/sheared\\ axes.png assets/layers.exr: assets/luts.toml\n");
 }
 
 #[test]
@@ -200,6 +207,9 @@ fn wrong_values_are_refused_with_what_was_expected() {
     refused("bake --f0 0.04", 4, &["energy where f0", "'dfg'"]);
     refused("bake --lut energy --f0 1", 4, &["less than 1"]);
     refused("bake --lut energy --f0 nan", 4, &["expected 0 to 1"]);
+    refused("bake --lut energy --f0 0.1,0.1", 4, &["different numbers"]);
+    refused("bake --lut energy --f0 0.1,x", 4, &["different numbers"]);
+    refused("bake --lut energy --f0 0.1,0.2 -o a.png", 4, &["which has no layers"]);
     refused("bake --lut energy --ior 0.5", 4, &["at least 1"]);
     refused("bake --lut energy --model charlie", 4, &["albedo stays below 1"]);
     refused("bake --lut energy --channels ab", 4, &["split", "got 'ab'"]);
@@ -336,9 +346,22 @@ fn a_furnace_is_reported_and_drawn() {
 }
 
 #[test]
+fn spheres_are_previewed() {
+    let folder = tempdir().unwrap();
+    for scene in ["punctual", "furnace", "sky"] {
+        ok(&folder, &format!("preview --scene {scene} --size 16 --backend cpu -o {scene}.png"));
+        assert!(fs::read(folder.path().join(format!("{scene}.png"))).unwrap().starts_with(b"\x89PNG"));
+    }
+    refused("preview --scene moon", 4, &["punctual, furnace or sky"]);
+    refused("preview --size 4", 4, &["16 to 512"]);
+    refused("preview -o preview.exr", 4, &[".png"]);
+    refused("preview --backend opencl", 4, &["auto, vulkan or cpu"]);
+}
+
+#[test]
 fn help_tells_the_exit_codes() {
     let folder = tempdir().unwrap();
-    for arguments in ["--help", "bake --help", "furnace --help", "devices --help"] {
+    for arguments in ["--help", "bake --help", "furnace --help", "preview --help", "devices --help"] {
         let text = String::from_utf8(ok(&folder, arguments).stdout).unwrap();
         for (code, meaning) in splitsum::error::ExitCode::MEANINGS {
             assert!(text.contains(&format!("{}  {meaning}", code as u8)), "{arguments}: no {meaning}");

@@ -8,11 +8,12 @@ use exr::meta::attribute::AttributeValue;
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, Text, read};
 use splitsum::backend::Backend;
 use splitsum::encode::{Format, encode};
-use splitsum::lut::{Dfg, DfgChannels, Lut};
+use splitsum::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
 use splitsum::model::Masking;
 use splitsum::precision::Precision;
 use splitsum::request::Request;
 use splitsum::table::Table;
+use splitsum::units::F0;
 use splitsum::{bake, half};
 use std::io::Cursor;
 
@@ -35,7 +36,7 @@ fn read_exr(bytes: &[u8]) -> ((usize, usize), Vec<(String, FlatSamples)>, serde_
 #[test]
 fn exr_halves_are_the_correctly_rounded_values_row_by_row() {
     let table = table(DfgChannels::Ab, Precision::F16);
-    let (size, channels, _) = read_exr(&encode(&table, Format::Exr, Precision::F16).unwrap());
+    let (size, channels, _) = read_exr(&encode(std::slice::from_ref(&table), Format::Exr, Precision::F16).unwrap());
     assert_eq!(size, (12, 5));
     let names: Vec<_> = channels.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["B", "G", "R"]);
@@ -56,7 +57,7 @@ fn exr_halves_are_the_correctly_rounded_values_row_by_row() {
 #[test]
 fn exr_floats_are_on_request() {
     let table = table(DfgChannels::Be, Precision::F32);
-    let (_, channels, metadata) = read_exr(&encode(&table, Format::Exr, Precision::F32).unwrap());
+    let (_, channels, metadata) = read_exr(&encode(std::slice::from_ref(&table), Format::Exr, Precision::F32).unwrap());
     let FlatSamples::F32(red) = &channels[2].1 else { panic!("not f32") };
     assert_eq!(red[7], table.values[14] as f32);
     assert_eq!(metadata["stored"], "f32");
@@ -66,7 +67,7 @@ fn exr_floats_are_on_request() {
 #[test]
 fn metadata_names_every_convention() {
     let table = table(DfgChannels::E, Precision::F16);
-    let (.., metadata) = read_exr(&encode(&table, Format::Exr, Precision::F16).unwrap());
+    let (.., metadata) = read_exr(&encode(std::slice::from_ref(&table), Format::Exr, Precision::F16).unwrap());
     assert_eq!(metadata["tool"], concat!("splitsum ", env!("CARGO_PKG_VERSION")));
     assert_eq!((&metadata["model"], &metadata["masking"]), (&"ggx".into(), &"height-correlated".into()));
     assert_eq!(metadata["roughness"], "alpha = roughness^2");
@@ -82,7 +83,7 @@ fn metadata_names_every_convention() {
 #[test]
 fn the_same_table_gives_the_same_bytes() {
     for (format, precision) in [(Format::Exr, Precision::F16), (Format::Png, Precision::Unorm16)] {
-        let bytes = || encode(&table(DfgChannels::Ab, precision), format, precision).unwrap();
+        let bytes = || encode(&[table(DfgChannels::Ab, precision)], format, precision).unwrap();
         assert!((0..8).all(|_| bytes() == bytes()));
     }
 }
@@ -90,7 +91,7 @@ fn the_same_table_gives_the_same_bytes() {
 #[test]
 fn png_holds_unorms() {
     let table = table(DfgChannels::Ab, Precision::Unorm16);
-    let bytes = encode(&table, Format::Png, Precision::Unorm16).unwrap();
+    let bytes = encode(std::slice::from_ref(&table), Format::Png, Precision::Unorm16).unwrap();
     let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
     let mut data = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut data).unwrap();
@@ -103,16 +104,38 @@ fn png_holds_unorms() {
 }
 
 #[test]
+fn several_f0_are_layers_of_one_exr() {
+    let table = |f0| {
+        let channels = EnergyChannels::Split;
+        let energy = Energy::new(ggx(Masking::HeightCorrelated), F0::new(f0).unwrap(), channels).unwrap();
+        let request = Request::with_default_axes(Lut::Energy(energy), (4, 3), Precision::F32).unwrap();
+        bake(&request, &Backend::cpu(), &|_| ()).unwrap().table
+    };
+    let tables = [table(0.5), table(0.02)];
+    let bytes = encode(&tables, Format::Exr, Precision::F32).unwrap();
+    let reader = read().no_deep_data().largest_resolution_level().all_channels().all_layers().all_attributes();
+    let image = reader.from_buffered(Cursor::new(bytes)).unwrap();
+    let names: Vec<_> = image.layer_data.iter().map(|l| l.attributes.layer_name.clone().unwrap().to_string()).collect();
+    assert_eq!(names, ["F0 = 0.5", "F0 = 0.02"]);
+    for (layer, table) in image.layer_data.iter().zip(&tables) {
+        let FlatSamples::F32(green) = &layer.channel_data.list[1].sample_data else { panic!("not f32") };
+        let expected: Vec<f32> = table.values.chunks(3).map(|texel| texel[1] as f32).collect();
+        assert_eq!(*green, expected);
+    }
+    assert!(encode(&tables, Format::Png, Precision::Unorm16).is_err());
+}
+
+#[test]
 fn values_that_a_precision_cannot_hold_are_refused() {
     let mut table = table(DfgChannels::Ab, Precision::F16);
     for bad in [f64::NAN, f64::INFINITY, 1e6] {
         table.values[3] = bad;
-        assert!(encode(&table, Format::Exr, Precision::F16).is_err(), "{bad} was stored");
+        assert!(encode(std::slice::from_ref(&table), Format::Exr, Precision::F16).is_err(), "{bad} was stored");
     }
     table.values[3] = 1.1;
-    assert!(encode(&table, Format::Exr, Precision::F16).is_ok());
-    assert!(encode(&table, Format::Png, Precision::Unorm8).is_err());
+    assert!(encode(std::slice::from_ref(&table), Format::Exr, Precision::F16).is_ok());
+    assert!(encode(std::slice::from_ref(&table), Format::Png, Precision::Unorm8).is_err());
     // Within the table's own error of 1, 1 is meant.
     table.values[3] = 1.0 + 0.5 * table.provenance.error_bound;
-    assert!(encode(&table, Format::Png, Precision::Unorm8).is_ok());
+    assert!(encode(std::slice::from_ref(&table), Format::Png, Precision::Unorm8).is_ok());
 }

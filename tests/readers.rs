@@ -38,7 +38,7 @@ fn openexr_reads(python: &std::ffi::OsStr) -> Result<(), Failed> {
     let table = splitsum::bake(&request, &Backend::cpu(), &|_| ())?.table;
     let folder = tempfile::tempdir()?;
     let file = folder.path().join("dfg.exr");
-    std::fs::write(&file, encode(&table, Format::Exr, Precision::F16)?)?;
+    std::fs::write(&file, encode(std::slice::from_ref(&table), Format::Exr, Precision::F16)?)?;
     let output = Command::new(python).args(["-c", SCRIPT]).arg(&file).output()?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     if !output.status.success() {

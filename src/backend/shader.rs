@@ -34,6 +34,8 @@ pub mod wgsl {
     pub const H_SPACE: &str = include_str!("../../shaders/h_space.wgsl");
     /// Twin of `integrate`.
     pub const INTEGRATE: &str = include_str!("../../shaders/integrate.wgsl");
+    /// Twin of `preview`.
+    pub const PREVIEW: &str = include_str!("../../shaders/preview.wgsl");
     /// The entry point of a bake.
     pub const BAKE: &str = include_str!("../../shaders/bake.wgsl");
 }
@@ -103,6 +105,11 @@ pub fn bake_kernel(integrand: Integrand, power: Power) -> Result<Kernel> {
         Integrand::Specular(lobe) => compile(&[&lobe_source(lobe, power), wgsl::INTEGRATE, wgsl::BAKE].join("\n")),
         Integrand::Diffuse(diffuse) => compile(&[&diffuse_source(diffuse), wgsl::BAKE].join("\n")),
     }
+}
+
+/// The shader that renders a row of a preview.
+pub fn preview_kernel(lobe: Microfacet, power: Power) -> Result<Kernel> {
+    compile(&[&lobe_source(lobe, power), wgsl::PREVIEW].join("\n"))
 }
 
 /// The WGSL that gives a diffuse lobe's albedo under the name that a bake calls.

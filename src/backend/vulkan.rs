@@ -7,6 +7,7 @@ pub mod buffer;
 pub mod devices;
 pub mod gpu;
 pub mod pipeline;
+pub mod render;
 
 use crate::error::Error;
 use ash::vk;

@@ -7,6 +7,8 @@ use crate::backend::{Backend, BackendChoice};
 use crate::encode::{encode, metadata::TOOL};
 use crate::error::{Error, Result};
 use crate::report::Report;
+use crate::request::Request;
+use crate::table::Table;
 use serde::Serialize;
 use std::io::Write;
 
@@ -98,7 +100,7 @@ pub fn run(arguments: BakeArgs) -> Result<()> {
     for name in jobs.iter().map(|job| &job.output).chain(&depfile) {
         output::check(name)?;
     }
-    let tables = jobs.iter().map(|job| bake(job, &backend, &arguments)).collect::<Result<_>>()?;
+    let tables: Vec<Vec<Baked>> = jobs.iter().map(|job| bake(job, &backend, &arguments)).collect::<Result<_>>()?;
     if let Some(depfile) = depfile {
         let outputs: Vec<&str> = jobs.iter().map(|job| job.output.as_str()).collect();
         let targets = arguments.mt.as_ref().map_or(outputs, |target| vec![target]);
@@ -106,23 +108,29 @@ pub fn run(arguments: BakeArgs) -> Result<()> {
         output::write(&depfile, depfile::rule(&targets, &dependencies).as_bytes())?;
     }
     if arguments.json {
-        return super::print_json(&Run { tool: TOOL, tables });
+        return super::print_json(&Run { tool: TOOL, tables: tables.into_iter().flatten().collect() });
     }
     Ok(())
 }
 
-fn bake(job: &Job, backend: &Backend, arguments: &BakeArgs) -> Result<Baked> {
-    let Job { request, format, output } = job;
-    let progress = Progress::new(output, request.x.size * request.y.size, arguments.quiet);
-    let crate::Baked { table, report } = crate::bake(request, backend, &|texels| progress.advance(texels))?;
+fn bake(job: &Job, backend: &Backend, arguments: &BakeArgs) -> Result<Vec<Baked>> {
+    let Job { requests, format, output } = job;
+    let texels = requests.iter().map(|request| request.x.size * request.y.size).sum();
+    let progress = Progress::new(output, texels, arguments.quiet);
+    let bake = |request: &Request| crate::bake(request, backend, &|texels| progress.advance(texels));
+    let baked: Vec<crate::Baked> = requests.iter().map(bake).collect::<Result<_>>()?;
     drop(progress);
-    output::write(output, &encode(&table, *format, request.precision)?)?;
+    let (tables, reports): (Vec<Table>, Vec<Report>) = baked.into_iter().map(|b| (b.table, b.report)).unzip();
+    output::write(output, &encode(&tables, *format, job.precision())?)?;
     if !arguments.quiet && !arguments.json {
         let name = if output == "-" { "standard output" } else { output };
-        let [width, height] = report.size;
-        let _ = writeln!(std::io::stderr(), "wrote     {name}: {width} x {height}\n{report}");
+        for (request, report) in requests.iter().zip(&reports) {
+            let layer = request.lut.f0().filter(|_| requests.len() > 1).map(|f0| format!(", layer F0 = {f0}"));
+            let ([width, height], layer) = (report.size, layer.unwrap_or_default());
+            let _ = writeln!(std::io::stderr(), "wrote     {name}{layer}: {width} x {height}\n{report}");
+        }
     }
-    Ok(Baked { output: output.clone(), report })
+    Ok(reports.into_iter().map(|report| Baked { output: output.clone(), report }).collect())
 }
 
 fn open(arguments: &BakeArgs) -> Result<Backend> {

@@ -38,9 +38,10 @@ pub struct TableArgs {
     /// factor 1-F, 1-E, and the reciprocal one for each direction) [default: split]
     #[arg(long, value_name = "NAME")]
     pub channels: Option<String>,
-    /// Reflectance at normal incidence, for the split of energy [default: 0.04]
-    #[arg(long, value_name = "F0", conflicts_with = "ior")]
-    pub f0: Option<f64>,
+    /// Reflectance at normal incidence, for the split of energy; several, with commas between, are layers of an .exr
+    /// [default: 0.04]
+    #[arg(long, value_name = "F0[,F0...]", conflicts_with = "ior")]
+    pub f0: Option<Numbers>,
     /// Index of refraction instead of F0: F0 = ((1-n)/(1+n))^2
     #[arg(long, value_name = "N")]
     pub ior: Option<f64>,
@@ -82,6 +83,18 @@ pub enum Size {
     Text(String),
 }
 
+/// One number or several as users write them.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+pub enum Numbers {
+    /// One.
+    One(f64),
+    /// A list.
+    List(Vec<f64>),
+    /// Text, with commas between.
+    Text(String),
+}
+
 /// Where a table goes when nothing is said.
 pub const DEFAULT_OUTPUT: &str = "out/dfg.exr";
 
@@ -91,7 +104,8 @@ const DEFAULT_F0: f64 = 0.04;
 /// A table to bake and where it goes.
 #[derive(Clone, Debug)]
 pub struct Job {
-    pub request: Request,
+    /// One for each layer, alike but for F0.
+    pub requests: Vec<Request>,
     pub format: Format,
     /// A path as the user wrote it, or `-`.
     pub output: String,
@@ -112,10 +126,21 @@ impl TableArgs {
         let wanted = self.precision.as_deref().map(|name| choice("precision", name)).transpose()?;
         let precision = format.precision(wanted)?;
         let (x, y) = self.axes()?;
-        Ok(Job { request: Request::new(self.lut()?, x, y, self.accuracy(precision)?, precision)?, format, output })
+        let request = |f0| Request::new(self.lut(f0)?, x, y, self.accuracy(precision)?, precision);
+        let requests: Vec<Request> = self.f0s()?.into_iter().map(request).collect::<Result<_>>()?;
+        if format == Format::Png && requests.len() > 1 {
+            let cure = "write an .exr, or one F0 at a time";
+            return Err(Error::bad_input(
+                "f0",
+                "one for a .png, which has no layers",
+                requests.len().to_string(),
+                cure,
+            ));
+        }
+        Ok(Job { requests, format, output })
     }
 
-    fn lut(&self) -> Result<Lut> {
+    fn lut(&self, f0: F0) -> Result<Lut> {
         let family = self.lut.as_deref().unwrap_or("dfg");
         if family != "energy" && (self.f0.is_some() || self.ior.is_some()) {
             let cure = "leave out f0 and ior: the other tables serve every F0";
@@ -127,7 +152,7 @@ impl TableArgs {
             "sheen" => Ok(Lut::Dfg(Dfg { lobe: self.lobe("charlie")?, channels: choice("channels", channels("e"))? })),
             "energy" => {
                 let channels = choice("channels", channels("split"))?;
-                Ok(Lut::Energy(Energy::new(self.lobe("ggx")?, self.f0()?, channels)?))
+                Ok(Lut::Energy(Energy::new(self.lobe("ggx")?, f0, channels)?))
             }
             "diffuse" => {
                 if self.masking.is_some() || self.channels.is_some() {
@@ -147,14 +172,15 @@ impl TableArgs {
         lobe(self.model.as_deref().unwrap_or(default), self.masking.as_deref())
     }
 
-    fn f0(&self) -> Result<F0> {
-        match (self.f0, self.ior) {
+    /// F0 of each layer.
+    fn f0s(&self) -> Result<Vec<F0>> {
+        match (&self.f0, self.ior) {
             (Some(_), Some(_)) => {
                 Err(Error::bad_input("f0", "F0 or an index of refraction", "both", "leave one of them out"))
             }
-            (Some(f0), None) => F0::new(f0),
-            (None, Some(n)) => Ok(F0::from(Ior::new(n)?)),
-            (None, None) => F0::new(DEFAULT_F0),
+            (Some(f0s), None) => f0s.parse()?.into_iter().map(F0::new).collect(),
+            (None, Some(n)) => Ok(vec![F0::from(Ior::new(n)?)]),
+            (None, None) => Ok(vec![F0::new(DEFAULT_F0)?]),
         }
     }
 
@@ -199,6 +225,39 @@ impl Size {
                 "as in 128 or 64x32",
             )),
         }
+    }
+}
+
+impl Job {
+    /// How values are stored.
+    pub fn precision(&self) -> Precision {
+        self.requests.first().map_or(Precision::F16, |request| request.precision)
+    }
+}
+
+impl Numbers {
+    /// The numbers, no two alike and no more than 64.
+    fn parse(&self) -> Result<Vec<f64>> {
+        let numbers = match self {
+            Numbers::One(number) => vec![*number],
+            Numbers::List(numbers) => numbers.clone(),
+            Numbers::Text(text) => {
+                let number = |word: &str| word.trim().parse().ok();
+                text.split(',').map(number).collect::<Option<Vec<f64>>>().unwrap_or_default()
+            }
+        };
+        let repeated = (1..numbers.len()).any(|i| numbers[..i].contains(&numbers[i]));
+        if numbers.is_empty() || numbers.len() > 64 || repeated {
+            let expected = "1 to 64 different numbers with commas between";
+            return Err(Error::bad_input("f0", expected, format!("{self:?}"), "as in 0.02,0.04,0.08"));
+        }
+        Ok(numbers)
+    }
+}
+
+impl From<String> for Numbers {
+    fn from(text: String) -> Self {
+        Numbers::Text(text)
     }
 }
 

@@ -6,6 +6,7 @@
 mod common;
 mod faults;
 mod model_twins;
+mod previews;
 mod tables;
 mod twins;
 
@@ -26,7 +27,7 @@ fn main() {
     let mut arguments = Arguments::from_args();
     // The tests use every core themselves, and loaders are not at their best when many threads open devices.
     arguments.test_threads = Some(1);
-    let tests: Vec<DeviceTest> = twins::TESTS.iter().chain(tables::TESTS).copied().collect();
+    let tests: Vec<DeviceTest> = twins::TESTS.iter().chain(tables::TESTS).chain(previews::TESTS).copied().collect();
     let mut trials: Vec<Trial> = match list_devices() {
         Ok(devices) if !devices.is_empty() => {
             devices.iter().flat_map(|device| tests.iter().map(|&test| on(device, test))).collect()

@@ -1,0 +1,43 @@
+//! A row of a preview on a device.
+
+use super::bake::node_data;
+use super::buffer::Buffer;
+use super::gpu::Gpu;
+use super::pipeline::Pipeline;
+use crate::backend::shader::Kernel;
+use crate::error::{Error, Result};
+use crate::integrate::h_space::HSpaceRule;
+
+/// What a row of spheres needs: see the shader's `Job`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowData {
+    /// (α, roughness, means of P1 and P2) for each column.
+    pub columns: Vec<[f32; 4]>,
+    /// (A, B) over n·v and roughness, a square of texels.
+    pub table: Vec<[f32; 2]>,
+    /// Pixels along the edge of a sphere's cell.
+    pub cell: usize,
+    /// The scene's number.
+    pub scene: u32,
+}
+
+/// The pixels of a row in linear R, G, B.
+pub fn render_row(gpu: &Gpu, kernel: &Kernel, row: &RowData, rule: &HSpaceRule) -> Result<Vec<[f64; 3]>> {
+    let nodes = Buffer::with(gpu, &node_data(&rule.nodes()))?;
+    let columns = Buffer::with(gpu, &row.columns)?;
+    let table = Buffer::with(gpu, &row.table)?;
+    let count = row.cell * row.cell * row.columns.len();
+    let pixels = Buffer::with(gpu, &vec![[f32::NAN; 4]; count])?;
+    let side = row.table.len().isqrt();
+    let job = [row.cell, row.columns.len(), row.scene as usize, side];
+    let counts = [rule.radial, rule.azimuth, rule.radial_horizon, rule.azimuth_horizon];
+    let push: Vec<u32> = job.into_iter().chain(counts).map(|n| n as u32).collect();
+    let buffers = [&nodes, &columns, &table, &pixels];
+    let groups = count.div_ceil(kernel.workgroup) as u32;
+    Pipeline::new(gpu, kernel, &buffers)?.run(bytemuck::cast_slice(&push), groups)?;
+    let pixels = pixels.read::<[f32; 4]>(count);
+    if pixels.iter().flatten().any(|value| !value.is_finite()) {
+        return Err(Error::CheckFailed("the device left pixels out; use another one, or --backend cpu".into()));
+    }
+    Ok(pixels.into_iter().map(|[r, g, b, _]| [r.into(), g.into(), b.into()]).collect())
+}
