@@ -2,6 +2,7 @@
 //! and nowhere else.
 
 mod bake;
+mod chart;
 mod config;
 mod depfile;
 mod devices;
@@ -28,6 +29,9 @@ struct Cli {
 enum Command {
     /// Bake a table, or all tables of a configuration
     Bake(Box<bake::BakeArgs>),
+    /// Draw a table
+    #[command(subcommand)]
+    Chart(Box<chart::ChartArgs>),
     /// Report how much energy a material gives back in a white furnace
     Furnace(furnace::FurnaceArgs),
     /// Render spheres lit by a light, a furnace or a sky
@@ -51,6 +55,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     };
     let outcome = match cli.command {
         Command::Bake(arguments) => bake::run(*arguments),
+        Command::Chart(arguments) => chart::run(&arguments),
         Command::Furnace(arguments) => furnace::run(&arguments),
         Command::Preview(arguments) => preview::run(&arguments),
         Command::Devices(arguments) => devices::run(&arguments),

@@ -19,6 +19,13 @@ pub enum Accuracy {
     Rule(Rule),
 }
 
+impl Accuracy {
+    /// What befits the precision, but no less than a device can keep of the table's integrand.
+    pub fn by_default(lut: &Lut, precision: Precision) -> Self {
+        Accuracy::Tolerance(precision.default_tolerance().max(Rule::device_tolerance(lut.integrand())))
+    }
+}
+
 /// A checked job.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
@@ -74,7 +81,7 @@ impl Request {
     pub fn with_default_axes(lut: Lut, size: (usize, usize), precision: Precision) -> Result<Self> {
         let x = Axis::new(AxisSpec::of(Parameter::Nov), size.0)?;
         let y = Axis::new(AxisSpec::of(Parameter::Roughness), size.1)?;
-        Request::new(lut, x, y, Accuracy::Tolerance(precision.default_tolerance()), precision)
+        Request::new(lut, x, y, Accuracy::by_default(&lut, precision), precision)
     }
 
     /// The parameters of the texels.

@@ -110,6 +110,8 @@ fn every_choice_bakes() {
         "--model beckmann-walter -o k.exr",
         "--model blinn-phong --y exponent,edges -o l.exr",
         "--model charlie --channels e -o m.exr",
+        "--model charlie --precision f32 -o m32.exr",
+        "--model beckmann-walter --precision f32 -o k32.exr",
         "--model charlie --masking height-correlated --x nov,edges,min=1e-4 --y roughness,min=0.07 -o n.exr",
     ] {
         let size = if flags.contains("--size") { "" } else { "--size 6x5" };
@@ -343,6 +345,16 @@ fn a_furnace_is_reported_and_drawn() {
     refused("furnace --model ggx --masking neubelt", 4, &["height-correlated"]);
     refused("furnace --multiple-scattering magic", 4, &["kulla-conty", "'magic'"]);
     refused("furnace -o furnace.exr", 4, &[".png"]);
+}
+
+#[test]
+fn tables_are_drawn() {
+    let folder = tempdir().unwrap();
+    let text = ok(&folder, "chart table --lut sheen --size 9x7 -o sheen.png").stdout;
+    // Charlie exceeds 1 by far, which no unorm of a table could hold.
+    assert!(String::from_utf8(text).unwrap().starts_with("E: 0 to 1"));
+    assert!(fs::read(folder.path().join("sheen.png")).unwrap().starts_with(b"\x89PNG"));
+    refused("chart table -o sheen.exr", 4, &[".png"]);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::furnace::{Extremes, Furnace, Material, Split, furnaces};
 use crate::integrate::rule::{REFERENCE, Rule};
 use crate::lut::Grid;
 use crate::model::Diffuse;
-use crate::report::map::panels;
+use crate::report::map::{diverging, panels};
 use crate::units::word;
 use serde::Serialize;
 
@@ -125,6 +125,6 @@ fn write_picture(name: &str, furnaces: &[Furnace], splits: usize, size: usize) -
     let of_split = |split| furnaces.iter().skip(split).step_by(splits);
     let deviation = |furnace: &Furnace| furnace.energy.iter().map(|energy| (energy - 1.0) / SCALE).collect();
     let values: Vec<Vec<f64>> = (0..splits).flat_map(of_split).map(deviation).collect();
-    let picture = panels(&values, size, F0S.len());
+    let picture = panels(&values, (size, size), F0S.len(), diverging);
     output::write(name, &encode_rgb(picture.width, picture.height, &picture.rgb)?)
 }

@@ -59,7 +59,8 @@ pub struct TableArgs {
     /// How values are stored: f16 or f32 (.exr), unorm16 or unorm8 (.png) [default: the first for the format]
     #[arg(long, value_name = "NAME")]
     pub precision: Option<String>,
-    /// Largest absolute error of an integral, 1e-13 to 0.1 [default: 1.5e-5 for f16, 1e-6 for f32 and unorm16]
+    /// Largest absolute error of an integral, 1e-13 to 0.1 [default: 1.5e-5 for f16, 1e-6 for f32 and unorm16,
+    /// 1e-4 for unorm8; more for models of which a device keeps less]
     #[arg(long, value_name = "ERROR", conflicts_with = "rule")]
     pub tolerance: Option<f64>,
     /// Quadrature rule by name, instead of a tolerance: h56 to h6144 (CPU and Vulkan), l128 to l6144, reference (CPU)
@@ -126,7 +127,10 @@ impl TableArgs {
         let wanted = self.precision.as_deref().map(|name| choice("precision", name)).transpose()?;
         let precision = format.precision(wanted)?;
         let (x, y) = self.axes()?;
-        let request = |f0| Request::new(self.lut(f0)?, x, y, self.accuracy(precision)?, precision);
+        let request = |f0| {
+            let lut = self.lut(f0)?;
+            Request::new(lut, x, y, self.accuracy(&lut, precision)?, precision)
+        };
         let requests: Vec<Request> = self.f0s()?.into_iter().map(request).collect::<Result<_>>()?;
         if format == Format::Png && requests.len() > 1 {
             let cure = "write an .exr, or one F0 at a time";
@@ -201,13 +205,14 @@ impl TableArgs {
         Ok((Axis::new(x, columns)?, Axis::new(y, rows)?))
     }
 
-    fn accuracy(&self, precision: Precision) -> Result<Accuracy> {
+    fn accuracy(&self, lut: &Lut, precision: Precision) -> Result<Accuracy> {
         match (&self.rule, self.tolerance) {
             (Some(_), Some(_)) => {
                 Err(Error::bad_input("rule", "a rule or a tolerance", "both", "leave one of them out"))
             }
             (Some(name), None) => Ok(Accuracy::Rule(Rule::named(name)?)),
-            (None, tolerance) => Ok(Accuracy::Tolerance(tolerance.unwrap_or_else(|| precision.default_tolerance()))),
+            (None, Some(tolerance)) => Ok(Accuracy::Tolerance(tolerance)),
+            (None, None) => Ok(Accuracy::by_default(lut, precision)),
         }
     }
 }

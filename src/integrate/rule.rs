@@ -111,6 +111,13 @@ impl Rule {
         }
     }
 
+    /// The smallest tolerance that f32 on a device keeps.
+    pub fn device_tolerance(integrand: impl Into<Integrand>) -> f64 {
+        let integrand = integrand.into();
+        let bounds = RULES.iter().filter(|rule| rule.runs_on_device()).map(|rule| rule.bound(integrand));
+        bounds.fold(f64::INFINITY, f64::min) + f32_arithmetic(integrand)
+    }
+
     /// The smallest error that any rule promises.
     pub fn sharpest_bound(integrand: impl Into<Integrand>) -> f64 {
         let integrand = integrand.into();

@@ -1,0 +1,43 @@
+//! `splitsum chart`
+
+use super::output;
+use super::table_args::TableArgs;
+use crate::backend::vulkan::gpu::GpuOptions;
+use crate::backend::{Backend, BackendChoice};
+use crate::encode::Format;
+use crate::encode::png::encode_rgb;
+use crate::error::{Error, Result};
+use crate::report::map::{panels, sequential};
+use clap::Subcommand;
+
+#[derive(Subcommand)]
+pub enum ChartArgs {
+    /// Draw a table: a panel for each channel, dark at 0, yellow at the channel's largest value, which is printed
+    Table(TableArgs),
+}
+
+pub fn run(arguments: &ChartArgs) -> Result<()> {
+    let ChartArgs::Table(table) = arguments;
+    let job = table.job()?;
+    if job.format != Format::Png {
+        return Err(Error::bad_input("output", "a name that ends in .png", job.output, "name a picture with -o"));
+    }
+    output::check(&job.output)?;
+    let backend = Backend::open(BackendChoice::Auto, &GpuOptions::default())?;
+    for request in &job.requests {
+        let table = crate::bake(request, &backend, &|_| ())?.table;
+        let (n, size) = (table.channels.len(), (table.x.size, table.y.size));
+        let channel = |c: usize| table.values.iter().skip(c).step_by(n).copied().collect::<Vec<f64>>();
+        let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        let channels: Vec<Vec<f64>> = (0..n).map(channel).collect();
+        let scaled = channels.iter().map(|values| {
+            let end = largest(values).max(f64::MIN_POSITIVE);
+            values.iter().map(|value| value / end).collect()
+        });
+        let picture = panels(&scaled.collect::<Vec<_>>(), size, n, sequential);
+        output::write(&job.output, &encode_rgb(picture.width, picture.height, &picture.rgb)?)?;
+        let line = |(c, values): (usize, &Vec<f64>)| format!("{}: 0 to {:.4}", table.channels[c].name, largest(values));
+        super::print(&channels.iter().enumerate().map(line).collect::<Vec<_>>().join(", "))?;
+    }
+    Ok(())
+}
