@@ -142,6 +142,12 @@ impl Axis {
         if self.spec.flip { self.size as f64 - 1.0 - i } else { i }
     }
 
+    /// At how many texels the parameter was raised to the axis's min.
+    pub fn clamped(&self) -> usize {
+        let free = Axis { spec: AxisSpec { min: 0.0, ..self.spec }, size: self.size };
+        (0..self.size).filter(|&i| free.value(i) < self.spec.min).count()
+    }
+
     /// The parameter at every texel, in order.
     pub fn values(&self) -> Vec<f64> {
         (0..self.size).map(|i| self.value(i)).collect()

@@ -116,6 +116,7 @@ pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<
     let report = Report {
         command: request.to_string(),
         size: [request.x.size, request.y.size],
+        clamped: [request.x.clamped(), request.y.clamped()],
         computed,
         accuracy: report::Accuracy::new(request, &rule, arithmetic, checked.measured),
         seconds: checked.seconds,

@@ -58,6 +58,8 @@ pub struct Report {
     pub command: String,
     /// Columns and rows.
     pub size: [usize; 2],
+    /// Columns and rows that hold the value at their axis's min instead of their own.
+    pub clamped: [usize; 2],
     /// Who computed it.
     pub computed: Computed,
     /// What its numbers are worth.
@@ -107,6 +109,10 @@ impl fmt::Display for Report {
         let Deviation { a, b, texels } = measured;
         writeln!(f, "error     at most {bound:.1e}; measured at {texels} texels: A {a:.1e}, B {b:.1e}")?;
         writeln!(f, "rounding  at most {rounding:.1e} more, in the file")?;
+        let [columns, rows] = self.clamped;
+        if columns + rows > 0 {
+            writeln!(f, "clamped   {columns} columns and {rows} rows to the min of their axes")?;
+        }
         let Seconds { integrate, check } = self.seconds;
         let each = 1e6 * integrate / (width * height) as f64;
         write!(f, "time      {:.1} ms, {each:.2} µs for a texel; checks {:.1} ms", 1e3 * integrate, 1e3 * check)

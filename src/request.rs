@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::integrate::Integrand;
 use crate::integrate::rule::Rule;
 use crate::lut::{Grid, Lut};
-use crate::model::Microfacet;
+use crate::model::{Microfacet, Ndf};
 use crate::precision::Precision;
 use crate::units::word;
 use std::fmt;
@@ -106,9 +106,20 @@ pub fn check_masking(Microfacet { ndf, masking }: Microfacet) -> Result<()> {
     if !ndf.maskings().contains(&masking) {
         let expected = ndf.maskings().iter().map(word).collect::<Vec<_>>().join(", ");
         let what = format!("masking of {}", word(ndf));
-        return Err(Error::bad_input(what, expected, word(masking), "name one that means something for the model"));
+        return Err(Error::bad_input(what, expected, word(masking), reason(ndf)));
     }
     Ok(())
+}
+
+/// Why a distribution takes these masking terms and no other.
+fn reason(ndf: Ndf) -> &'static str {
+    match ndf {
+        Ndf::Ggx => "neubelt is the visibility of sheen",
+        Ndf::Beckmann => "joint approximates GGX's term, and neubelt is the visibility of sheen",
+        Ndf::BeckmannWalter => "the model differs from beckmann in its Smith term alone: use beckmann for another",
+        Ndf::BlinnPhong => "schlick-smith and joint approximate other distributions' terms; neubelt is for sheen",
+        Ndf::Charlie => "its Smith term was fitted for correlated heights, and the approximations are GGX's",
+    }
 }
 
 impl fmt::Display for Request {

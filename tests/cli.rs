@@ -51,6 +51,15 @@ fn a_bake_says_who_computed_it_and_how_exact_it_is() {
 }
 
 #[test]
+fn a_clamp_that_acts_is_reported() {
+    let folder = tempdir().unwrap();
+    let kulla = "bake --backend cpu --model charlie --masking height-correlated --size 4 --rule h288 -o a.exr";
+    let clamped = stderr(&ok(&folder, &format!("{kulla} --x nov,edges,min=1e-4")));
+    assert!(clamped.contains("clamped   1 columns and 0 rows"), "{clamped}");
+    assert!(!stderr(&ok(&folder, kulla)).contains("clamped"));
+}
+
+#[test]
 fn the_default_output_is_made_with_its_folder() {
     let folder = tempdir().unwrap();
     assert_eq!(stderr(&ok(&folder, &format!("{CPU} -q"))), "");

@@ -78,6 +78,23 @@ fn visible_normals_project_to_the_view() {
     }
 }
 
+#[test]
+fn visible_normals_of_beckmann_project_to_the_view() {
+    // The same with P2(p) = exp(-p²/α²)/(α√π), to 8 of its widths.
+    let nodes = gauss_legendre(64);
+    for alpha in ALPHAS {
+        for mu in [1e-3, 0.1, 0.5, 0.9, 0.999_f64] {
+            let sv = (1.0 - mu * mu).sqrt();
+            let end = (mu / (sv * alpha)).min(8.0);
+            let visible = |p: f64| (mu - sv * alpha * p) * (-p * p).exp() / PI.sqrt();
+            let range = end + 8.0;
+            let sum: f64 = nodes.iter().map(|n| n.weight * range * visible(range * n.at - 8.0)).sum();
+            let g1 = 2.0 * mu / (mu + Ndf::Beckmann.smith(mu, alpha));
+            assert!((g1 * sum / mu - 1.0).abs() < 1e-12, "alpha {alpha}, n.v {mu}: {}", g1 * sum / mu);
+        }
+    }
+}
+
 /// A direction of the upper hemisphere.
 fn direction(random: &mut Random) -> DVec3 {
     let (z, phi) = (random.next(), 2.0 * PI * random.next());

@@ -4,14 +4,17 @@
 //! f (sr⁻¹) reflects ∫ f L n·l dω towards v. With L = 1 (the white furnace) that is the directional albedo E(μ) = ∫ f n·l dω,
 //! and the reflected share of all the light is the average albedo E_avg = 2 ∫ E μ dμ, since dω's projection is π in all.
 //!
-//! *Multiple scattering.* A Smith lobe with F = 1 gives back E(μ) < 1: the rest hits other facets. Kulla and Conty 2017 give
-//! it back by f_ms = (1-E(μ_l))(1-E(μ_v)) / (π (1-E_avg)), whose albedo is 1-E(μ_v); Turquin 2019 by the factor
-//! 1 + F0 (1-E)/E on the lobe; Fdez-Agüera 2019 from A and B alone, which the dfg family holds.
+//! *Multiple scattering.* A Smith lobe with F = 1 gives back E(μ) < 1: the rest, 1-E(μ), hits other facets. A reciprocal lobe
+//! that returns it has the form f_ms = k (1-E(μ_l))(1-E(μ_v)); its albedo k (1-E(μ_v)) ∫ (1-E(μ_l)) μ_l dω =
+//! k (1-E(μ_v)) π (1-E_avg) has to be 1-E(μ_v), so that k = 1/(π (1-E_avg)) (Kelemen and Szirmay-Kalos 2001; Kulla and Conty
+//! 2017). Turquin 2019 scales the lobe itself by 1/E at F = 1, and by 1 + F0 (1-E)/E below. Fdez-Agüera 2019 needs A and B alone,
+//! which the dfg family holds.
 //!
-//! *The split.* What is left for a white diffuse base below a lobe with F0: (a) 1 - F(μ), as if only the mirror direction
-//! reflected; (b) 1 - E(μ_v), albedo scaling, exact in a furnace but not reciprocal; (c) (1-E(μ_v))(1-E(μ_l))/(1-E_avg),
-//! reciprocal and exact (Shirley et al. 1997; Kelemen and Szirmay-Kalos 2001; Ashikhmin and Shirley 2000 approximate it). (c)
-//! is the product of one factor for each direction, (1-E(μ))/√(1-E_avg), which is what a texel holds.
+//! *The split.* A specular lobe with F0 reflects S(μ) = F0 A + B; what is left for a white diffuse base is (a) 1 - F(μ), as if
+//! only the mirror direction reflected; (b) 1 - S(μ_v), albedo scaling: exact in a furnace, but l and v do not play the same
+//! part, so that it is not reciprocal; (c) by the argument above with S for E, f_d = (1-S(μ_v))(1-S(μ_l)) / (π (1-S_avg)), which
+//! is both (Shirley et al. 1997; Kelemen and Szirmay-Kalos 2001; Ashikhmin and Shirley 2000 approximate it by polynomials). It is
+//! the product of one factor for each direction, (1-S(μ))/√(1-S_avg), over π: that factor is what a texel holds.
 
 use crate::error::{Error, Result};
 use crate::integrate::ScaleBias;
@@ -49,7 +52,7 @@ impl Energy {
     /// Refuses the lobes for which the numbers have no meaning.
     pub fn new(lobe: Microfacet, f0: F0, channels: EnergyChannels) -> Result<Self> {
         let cure = "choose another model or masking";
-        if lobe.may_exceed_one() {
+        if lobe.may_exceed_one() && channels != EnergyChannels::Average {
             let got = format!("{} with {}", word(lobe.ndf), word(lobe.masking));
             return Err(Error::bad_input(
                 "model",

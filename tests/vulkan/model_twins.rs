@@ -3,7 +3,7 @@
 use crate::twins::{Twin, small, unit};
 use splitsum::model::beckmann::{beckmann_slope_density, beckmann_smith, beckmann_width, walter_smith};
 use splitsum::model::blinn_phong::{blinn_phong_end, blinn_phong_slope_density};
-use splitsum::model::charlie::{charlie_fit, charlie_slope_density, charlie_smith, charlie_width};
+use splitsum::model::charlie::{charlie_fit, charlie_scale, charlie_slope_density, charlie_smith, charlie_width};
 use splitsum::model::diffuse::{burley_albedo, eon_albedo, lambert_albedo, oren_nayar_albedo};
 use splitsum::model::fresnel::schlick_weight;
 use splitsum::model::ggx::{ggx_slope_density, ggx_smith};
@@ -131,9 +131,9 @@ pub fn twins() -> Vec<Twin> {
             scale: 0.0,
         },
         Twin {
-            name: "charlie_fit, charlie_smith",
-            wgsl: "vec4(charlie_fit(p.x, p.y), charlie_smith(p.z, p.y), 0.0, 0.0)",
-            rust: Box::new(|a| [charlie_fit(a[0], a[1]), charlie_smith(a[2], a[1]), 0.0, 0.0]),
+            name: "charlie_fit, charlie_smith, charlie_scale",
+            wgsl: "vec4(charlie_fit(p.x, p.y), charlie_smith(p.z, p.y), charlie_scale(p.y), 0.0)",
+            rust: Box::new(|a| [charlie_fit(a[0], a[1]), charlie_smith(a[2], a[1]), charlie_scale(a[1]), 0.0]),
             arguments: |random| [0.5 * small(random), small(random), small(random), 0.0],
             // The fit is a sum of numbers up to 25, and an error of it is one of the power.
             ulps: 50.0,
