@@ -13,6 +13,8 @@ mod progress;
 mod table_args;
 
 use crate::error::{Complaint, Error, ExitCode, Result};
+use crate::model::{Diffuse, Ndf};
+use crate::units::word;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
 use std::io::Write;
@@ -45,7 +47,14 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let arguments = arguments.into_iter().map(depfile::long_flag);
     let codes = ExitCode::MEANINGS.map(|(code, meaning)| format!("  {}  {meaning}", code as u8)).join("\n");
     let codes = format!("Exit codes:\n{codes}");
-    let command = Cli::command().after_help(&codes).mut_subcommands(|command| command.after_help(&codes));
+    let specular = Ndf::ALL.map(|ndf| format!("  {:<16} {}\n", word(ndf), ndf.summary())).concat();
+    let diffuse = Diffuse::ALL.map(|diffuse| format!("  {:<16} {}\n", word(diffuse), diffuse.summary())).concat();
+    let models = format!("Models of dfg, sheen and energy:\n{specular}\nModels of diffuse:\n{diffuse}\n{codes}");
+    let command = Cli::command().after_help(&codes).mut_subcommands(|command| {
+        let takes_models = ["bake", "chart", "furnace"].contains(&command.get_name());
+        let command = command.mut_subcommands(|command| command.after_help(&models));
+        command.after_help(if takes_models { &models } else { &codes })
+    });
     let cli = match command.try_get_matches_from(arguments).and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => {

@@ -72,6 +72,17 @@ impl Ndf {
     /// All of them.
     pub const ALL: [Ndf; 5] = [Ndf::Ggx, Ndf::Beckmann, Ndf::BeckmannWalter, Ndf::BlinnPhong, Ndf::Charlie];
 
+    /// What it is, in a line.
+    pub fn summary(self) -> &'static str {
+        match self {
+            Ndf::Ggx => "GGX, long tails (Trowbridge and Reitz 1975; Walter et al. 2007)",
+            Ndf::Beckmann => "Gaussian slopes, exact Smith term (Beckmann and Spizzichino 1963; Heitz 2014)",
+            Ndf::BeckmannWalter => "the same with Walter's rational Smith term, which jumps (Walter et al. 2007)",
+            Ndf::BlinnPhong => "a power of n.h, n = 2/alpha^2 - 2 (Blinn 1977; Hoffman 2013)",
+            Ndf::Charlie => "a power of sin(theta_h), for sheen (Estevez and Kulla 2017)",
+        }
+    }
+
     /// The unit of slopes.
     pub fn width(self, alpha: f64) -> f64 {
         match self {
@@ -137,6 +148,16 @@ impl Ndf {
 impl Diffuse {
     /// All of them.
     pub const ALL: [Diffuse; 4] = [Diffuse::Lambert, Diffuse::Burley, Diffuse::OrenNayar, Diffuse::Eon];
+
+    /// What it is, in a line.
+    pub fn summary(self) -> &'static str {
+        match self {
+            Diffuse::Lambert => "the same in every direction (Lambert 1760)",
+            Diffuse::Burley => "Disney's diffuse lobe (Burley 2012)",
+            Diffuse::OrenNayar => "rough Lambertian facets, the qualitative model (Oren and Nayar 1994)",
+            Diffuse::Eon => "the single scattering of EON (Portsmouth, Kutz and Hill 2025)",
+        }
+    }
 
     /// The directional albedo of a white surface with the roughness `r`.
     pub fn albedo(self, mu: f64, r: f64) -> f64 {

@@ -22,10 +22,8 @@ pub struct TableArgs {
     /// 2019); diffuse, the albedo of a white diffuse lobe [default: dfg]
     #[arg(long, value_name = "NAME")]
     pub lut: Option<String>,
-    /// Distribution of normals: ggx (Walter et al. 2007), beckmann (with the exact Smith term), beckmann-walter (with
-    /// Walter's rational one), blinn-phong (n = 2/alpha^2 - 2; Blinn 1977), charlie (sheen; Estevez and Kulla 2017)
-    /// [default: ggx]. Of diffuse: lambert, burley (2012), oren-nayar (1994, qualitative), eon (2025, its single
-    /// scattering) [default: burley]
+    /// Model: a distribution of normals, or a diffuse lobe; they are listed below [default: ggx; charlie for sheen, burley
+    /// for diffuse]
     #[arg(long, value_name = "NAME")]
     pub model: Option<String>,
     /// Masking: height-correlated or separable (Smith; Heitz 2014), schlick-smith (k = alpha/2; Karis 2013), joint
