@@ -13,29 +13,36 @@ fn charlie_slope_density(y2: f32, alpha: f32) -> f32 {
     return 0.636619772 * (1.0 + 2.0 * alpha) * exponential(max(-2.0 / y * log1p_ratio(a4 / y), -100.0)) / scale / scale;
 }
 
-// e^L(0) of the fit of Lambda (Estevez and Kulla 2017).
-fn charlie_scale(alpha: f32) -> f32 {
+// e^L(x), L(x) = a/(1 + b x^p) + d x + e (Estevez and Kulla 2017), within 7e-7 of itself: L reaches 20, so that its parts are
+// kept in heads of 12 bits, whose products are exact, and in what is left of them.
+fn charlie_lambda(x: f32, alpha: f32) -> f32 {
     let s = 1.0 - alpha;
-    return 24154952.75 * exponential(0.22676 + 3.23807 * (s * s));
-}
-
-// L(x) - L(0).
-fn charlie_fit(x: f32, alpha: f32) -> f32 {
-    let s = 1.0 - alpha;
-    let p = vec4<f32>(21.5473, 3.82987, 0.19823, -1.97760) + (s * s) * vec4<f32>(3.7772, -0.50552, -0.03022, 0.70367);
-    var power = 0.0;
+    let s2 = s * s;
+    // b x^p: b times a power of 2, exactly, and a smaller rest.
+    var high = 0.0;
+    var low = 0.0;
     if x > 0.0 {
-        power = exponential(p.z * logarithm(x));
+        // p = 203/1024 and a rest.
+        let parts = power_parts(x, 0.1982421875, -1.21875e-5 - 0.03022 * s2);
+        high = (3.82987 - 0.50552 * s2) * parts.x;
+        low = high * parts.y;
     }
-    let b_power = p.y * power;
-    return p.w * x - p.x * b_power / (1.0 + b_power);
+    let sum = 1.0 + high + low;
+    let sum_head = bitcast<f32>(bitcast<u32>(sum) & 0xfffff000u);
+    let sum_rest = ((1.0 - sum_head) + high) + low;
+    // a/sum, a = 21.5 and a rest.
+    let a_rest = 0.0473 + 3.7772 * s2;
+    let head = bitcast<f32>(bitcast<u32>((21.5 + a_rest) / sum) & 0xfffff000u);
+    let rest = ((21.5 - head * sum_head) + (a_rest - head * sum_rest)) / sum;
+    return exponential(head - 4.0) * exponential(rest + (0.70367 * s2 - 1.97760) * x - (0.32054 + 0.53913 * s2));
 }
 
 // c (1 + 2 Lambda(c)).
 fn charlie_smith(c: f32, alpha: f32) -> f32 {
-    var fall = charlie_fit(min(c, 1.0 - c), alpha);
+    var lambda = charlie_lambda(min(c, 1.0 - c), alpha);
     if c >= 0.5 {
-        fall = 2.0 * charlie_fit(0.5, alpha) - fall;
+        let middle = charlie_lambda(0.5, alpha);
+        lambda = middle * middle / lambda;
     }
-    return max(c, 1e-30) * (1.0 + 2.0 * charlie_scale(alpha) * exponential(fall));
+    return max(c, 1e-30) * (1.0 + 2.0 * lambda);
 }

@@ -1,16 +1,25 @@
 // Special functions: the twin of src/special.rs. Correct to a few ulps with + - * / alone.
 
-// exp(x) for x <= 88: 2^k exp(r), |r| <= ln(2)/2, the Taylor series to r^7 (the next term is 5e-9); 0 below the normal numbers.
+// e^r - 1 for |r| <= ln(2)/2: the Taylor series to r^7 (the next term is 5e-9).
+fn expm1_reduced(r: f32) -> f32 {
+    return r * (1.0 + r * (0.5 + r * (0.166666667 + r * (0.0416666667
+        + r * (0.00833333333 + r * (0.00138888889 + r * 0.000198412698))))));
+}
+
+// 2^k for a whole number k from -126 to 127.
+fn power_of_two(k: f32) -> f32 {
+    return bitcast<f32>(u32(i32(k) + 127) << 23u);
+}
+
+// exp(x) for x <= 88: 2^k e^r, |r| <= ln(2)/2; 0 below the normal numbers.
 fn exponential(x: f32) -> f32 {
     if x < -87.0 {
         return 0.0;
     }
     let k = floor(x * 1.44269504 + 0.5);
     // ln 2 in two parts, the first of which times k is exact.
-    let r = (x - k * 0.693359375) + k * 2.12194440e-4;
-    let series = 1.0 + r * (1.0 + r * (0.5 + r * (0.166666667 + r * (0.0416666667
-        + r * (0.00833333333 + r * (0.00138888889 + r * 0.000198412698))))));
-    return series * bitcast<f32>(u32(i32(k) + 127) << 23u);
+    let scale = power_of_two(k);
+    return scale + scale * expm1_reduced((x - k * 0.693359375) + k * 2.12194440e-4);
 }
 
 // atanh(s)/s for |s| <= 1/3 by its square; the next term of the series is 1e-9.
@@ -54,4 +63,17 @@ fn ierfc(a: f32) -> f32 {
 fn arc_cosine(x: f32) -> f32 {
     return sqrt(1.0 - x) * (1.5707963050 + x * (-0.2145988016 + x * (0.0889789874 + x * (-0.0501743046
         + x * (0.0308918810 + x * (-0.0170881256 + x * (0.0066700901 + x * -0.0012624911)))))));
+}
+
+// x^(head + rest) for normal x > 0 as 2^k and e^r - 1: nearly twice the digits of one number. `head` has few enough bits that
+// its products with the exponents of x are exact.
+fn power_parts(x: f32, head: f32, rest: f32) -> vec2<f32> {
+    let bits = bitcast<u32>(x);
+    let exponent = f32(i32(bits >> 23u) - 127);
+    let m = bitcast<f32>((bits & 0x7fffffu) | 0x3f800000u);
+    let s = (m - 1.0) / (m + 1.0);
+    let high = head * exponent;
+    let low = rest * exponent + (head + rest) * (2.88539008 * s * atanh_ratio(s * s));
+    let k = floor(high + low + 0.5);
+    return vec2<f32>(power_of_two(k), expm1_reduced(((high - k) + low) * 0.69314718));
 }

@@ -1,11 +1,28 @@
 //! Special functions of the models. In f64 they come from libm, the same bits everywhere; their twins on a device use
 //! only + - × ÷, since a driver's own exp and log may be off by dozens of ulps.
 
-use std::f64::consts::PI;
+use std::f64::consts::{LN_2, PI};
 
 /// exp(x).
 pub fn exponential(x: f64) -> f64 {
     libm::exp(x)
+}
+
+/// e^r - 1.
+pub fn expm1_reduced(r: f64) -> f64 {
+    libm::expm1(r)
+}
+
+/// 2^k for a whole number k.
+pub fn power_of_two(k: f64) -> f64 {
+    libm::ldexp(1.0, k as i32)
+}
+
+/// x^(head + rest) for x > 0 as 2^k and e^r - 1, |r| ≤ ln(2)/2: nearly twice the digits of one number in f32.
+pub fn power_parts(x: f64, head: f64, rest: f64) -> (f64, f64) {
+    let exponent = (head + rest) * libm::log2(x);
+    let k = (exponent + 0.5).floor();
+    (power_of_two(k), expm1_reduced((exponent - k) * LN_2))
 }
 
 /// ln x, for x > 0.

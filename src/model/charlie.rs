@@ -18,31 +18,24 @@ pub fn charlie_slope_density(y2: f64, alpha: f64) -> f64 {
     FRAC_2_PI * (1.0 + 2.0 * alpha) * exponential(-2.0 / y2 * log1p_ratio(a4 / y2)) / (scale * scale)
 }
 
-/// c (1 + 2Λ(c)) with the Λ that Estevez and Kulla fitted (their roughness is the α of D): Λ = e^L(c) for c < 1/2, else
-/// e^(2 L(1/2) - L(1-c)), L(x) = a/(1 + b x^p) + d x + e, the parameters between those of α = 0 and α = 1 by (1-α)².
-///
-/// L(0) reaches 20, whose rounding alone would be 1e-6 of Λ in f32: it stands apart, as [`charlie_scale`]. With c the term
-/// falls to 0 (to 1e-30 of it, so that it can divide), and the lobe's albedo diverges like 1/n·v.
+/// c (1 + 2Λ(c)) with the Λ that Estevez and Kulla fitted: e^L(c) for c < 1/2, else e^(2 L(1/2) - L(1-c)). With c the term falls
+/// to 0 (to 1e-30 of it, so that it can divide), and the lobe's albedo diverges like 1/n·v.
 pub fn charlie_smith(c: f64, alpha: f64) -> f64 {
-    let fall =
-        if c < 0.5 { charlie_fit(c, alpha) } else { 2.0 * charlie_fit(0.5, alpha) - charlie_fit(1.0 - c, alpha) };
-    c.max(1e-30) * (1.0 + 2.0 * charlie_scale(alpha) * exponential(fall))
+    let lambda = if c < 0.5 {
+        charlie_lambda(c, alpha)
+    } else {
+        let middle = charlie_lambda(0.5, alpha);
+        middle * middle / charlie_lambda(1.0 - c, alpha)
+    };
+    c.max(1e-30) * (1.0 + 2.0 * lambda)
 }
 
-/// e^L(0) = e^(a + e).
-pub fn charlie_scale(alpha: f64) -> f64 {
-    let s = 1.0 - alpha;
-    EXP_17 * exponential(0.22676 + 3.23807 * (s * s))
-}
-
-/// e^17, the whole part of L(0) at α = 1, 17.22676 = 21.5473 - 4.32054.
-const EXP_17: f64 = 24_154_952.753_575_3;
-
-/// L(x) - L(0).
-pub fn charlie_fit(x: f64, alpha: f64) -> f64 {
+/// e^L(x), L(x) = a/(1 + b x^p) + d x + e, the parameters between those of α = 0 and α = 1 by (1-α)² (Estevez and Kulla 2017,
+/// the table of their fit; their roughness is the α of D).
+pub fn charlie_lambda(x: f64, alpha: f64) -> f64 {
     let s = 1.0 - alpha;
     let mix = |smooth: f64, rough: f64| rough + s * s * (smooth - rough);
     let power = if x > 0.0 { exponential(mix(0.16801, 0.19823) * logarithm(x)) } else { 0.0 };
-    let b_power = mix(3.32435, 3.82987) * power;
-    mix(-1.27393, -1.97760) * x - mix(25.3245, 21.5473) * b_power / (1.0 + b_power)
+    let slope = mix(-1.27393, -1.97760) * x + mix(-4.85967, -4.32054);
+    exponential(mix(25.3245, 21.5473) / (1.0 + mix(3.32435, 3.82987) * power) + slope)
 }

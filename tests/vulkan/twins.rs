@@ -246,6 +246,10 @@ fn cut(mu: f32, alpha: f32, place: f32) -> vec4<f32> {
     let r = ring(mu, sine(mu), t1 * (1.0 + place * (1.0 / (t1 * t1) - 1.0)));
     return vec4(cut_circle(mu, alpha, r, 44u, 8u), 0.0, 0.0);
 }
+fn power_as_vector(x: f32, rest: f32) -> vec4<f32> {
+    let parts = power_parts(x, 0.1982421875, rest);
+    return vec4(parts.x * (1.0 + parts.y), power_of_two(3.0), 0.0, 0.0);
+}
 fn sum_of_multiples(x: f32) -> vec2<f32> {
     var sum = Sum(vec2<f32>(0.0), vec2<f32>(0.0));
     for (var i = 0u; i < 20u; i++) { add(&sum, i, f32(i + 1u) * vec2<f32>(x, -x)); }
