@@ -75,6 +75,10 @@ fn closed_forms_are_the_integrals_of_their_lobes() {
 fn the_energy_that_they_lose_or_make_is_what_the_docs_say() {
     assert!((Diffuse::Burley.albedo(0.0, 1.0) - 1.5575396825396825).abs() < 1e-15);
     assert!((Diffuse::Burley.albedo(1.0, 0.0) - 41.0 / 42.0).abs() < 1e-15);
+    let at = |model: Diffuse, mu, r, e: f64| assert!((model.albedo(mu, r) - e).abs() < 1e-14, "{model:?}");
+    at(Diffuse::Burley, 0.3, 0.6, 1.045_255_534_738_095_2);
+    at(Diffuse::Eon, 0.3, 0.6, 0.946_961_839_761_036_9);
+    at(Diffuse::OrenNayar, 0.3, 0.5, 0.912_390_172_389_349_7);
     let average = |model: Diffuse, r: f64| -> f64 {
         gauss_legendre(48).iter().map(|node| 2.0 * node.weight * node.at * model.albedo(node.at, r)).sum()
     };

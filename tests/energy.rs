@@ -80,6 +80,12 @@ fn closed_forms_of_blinn_phong_and_charlie_hold() {
         let normal =
             2.0 * (1.0 - 0.5f64.powf(0.5 * (n + 4.0))) / (n + 4.0) - (1.0 - 0.5f64.powf(0.5 * (n + 2.0))) / (n + 2.0);
         assert!((at(1.0).e() - (n + 2.0) * normal).abs() < 1e-13, "normal, n = {n}");
+        // B(1) = (n+2) Σ C(5,k) (-1)^k (2 I(n+3+k) - I(n+1+k)), I(p) = (1 - 2^-(p+1)/2)/(p+1); the sum cancels as 1/n⁵.
+        let power = |p: f64| (1.0 - 0.5f64.powf(0.5 * (p + 1.0))) / (p + 1.0);
+        let terms = [1.0, -5.0, 10.0, -10.0, 5.0, -1.0].into_iter().zip(0..6);
+        let b: f64 =
+            terms.map(|(c, k)| c * (2.0 * power(n + 3.0 + f64::from(k)) - power(n + 1.0 + f64::from(k)))).sum();
+        assert!((at(1.0).b - (n + 2.0) * b).abs() < 1e-13, "normal B, n = {n}");
         // E_avg = (n+2)/(2(n+4)): the lobe is the same polynomial in both directions.
         let average: f64 =
             tanh_sinh(60).iter().map(|node| 2.0 * node.weight * node.from_start * at(node.from_start).e()).sum();
