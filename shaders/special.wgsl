@@ -28,13 +28,18 @@ fn atanh_ratio(s2: f32) -> f32 {
         + s2 * (0.0909090909 + s2 * (0.0769230769 + s2 * 0.0666666667))))));
 }
 
-// ln x for normal x > 0: x = 2^k m, 1 <= m < 2, ln m = 2 atanh((m-1)/(m+1)).
-fn logarithm(x: f32) -> f32 {
+// k and ln m of normal x = 2^k m > 0, 1 <= m < 2: ln m = 2 atanh((m-1)/(m+1)).
+fn logarithm_parts(x: f32) -> vec2<f32> {
     let bits = bitcast<u32>(x);
-    let k = f32(i32(bits >> 23u) - 127);
     let m = bitcast<f32>((bits & 0x7fffffu) | 0x3f800000u);
     let s = (m - 1.0) / (m + 1.0);
-    return k * 0.69314718 + 2.0 * s * atanh_ratio(s * s);
+    return vec2<f32>(f32(i32(bits >> 23u) - 127), 2.0 * s * atanh_ratio(s * s));
+}
+
+// ln x for normal x > 0.
+fn logarithm(x: f32) -> f32 {
+    let parts = logarithm_parts(x);
+    return parts.x * 0.69314718 + parts.y;
 }
 
 // ln(1+u)/u for u >= 0, 1 at u = 0.
@@ -68,12 +73,9 @@ fn arc_cosine(x: f32) -> f32 {
 // x^(head + rest) for normal x > 0 as 2^k and e^r - 1: nearly twice the digits of one number. `head` has few enough bits that
 // its products with the exponents of x are exact.
 fn power_parts(x: f32, head: f32, rest: f32) -> vec2<f32> {
-    let bits = bitcast<u32>(x);
-    let exponent = f32(i32(bits >> 23u) - 127);
-    let m = bitcast<f32>((bits & 0x7fffffu) | 0x3f800000u);
-    let s = (m - 1.0) / (m + 1.0);
-    let high = head * exponent;
-    let low = rest * exponent + (head + rest) * (2.88539008 * s * atanh_ratio(s * s));
+    let parts = logarithm_parts(x);
+    let high = head * parts.x;
+    let low = rest * parts.x + (head + rest) * (1.44269504 * parts.y);
     let k = floor(high + low + 0.5);
     return vec2<f32>(power_of_two(k), expm1_reduced(((high - k) + low) * 0.69314718));
 }

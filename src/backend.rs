@@ -5,7 +5,6 @@ pub mod shader;
 pub mod vulkan;
 
 use crate::error::{Complaint, Error, Result};
-use std::fmt;
 use std::str::FromStr;
 use vulkan::gpu::{Gpu, GpuOptions};
 
@@ -71,16 +70,6 @@ impl FromStr for BackendChoice {
             "cpu" => Ok(BackendChoice::Cpu),
             _ => Err(Error::bad_input("backend", "auto, vulkan or cpu", format!("'{text}'"), "name one of these")),
         }
-    }
-}
-
-impl fmt::Display for BackendChoice {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            BackendChoice::Auto => "auto",
-            BackendChoice::Vulkan => "vulkan",
-            BackendChoice::Cpu => "cpu",
-        })
     }
 }
 

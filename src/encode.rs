@@ -70,8 +70,7 @@ fn rgb_planes(table: &Table, precision: Precision) -> Result<[Vec<u32>; 3]> {
         if channel >= n {
             return Ok(vec![0; texels]);
         }
-        let values: Vec<f64> = table.values.iter().skip(channel).step_by(n).copied().collect();
-        precision.store(&values, table.provenance.error_bound)
+        precision.store(&table.plane(channel), table.provenance.error_bound)
     };
     Ok([plane(0)?, plane(1)?, plane(2)?])
 }

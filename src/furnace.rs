@@ -8,6 +8,7 @@ use crate::integrate::ScaleBias;
 use crate::integrate::average::{average, average_nodes};
 use crate::integrate::rule::Rule;
 use crate::lut::Grid;
+use crate::lut::energy::check_leaves_energy;
 use crate::model::fresnel::schlick_weight;
 use crate::model::{Diffuse, Microfacet};
 use crate::quadrature::double_exponential::tanh_sinh;
@@ -103,15 +104,7 @@ impl MultipleScattering {
 /// The furnaces of a material over a grid: for every F0 each split.
 pub fn furnaces(material: Material, f0s: &[f64], splits: &[Split], grid: &Grid, rule: &Rule) -> Result<Vec<Furnace>> {
     let Material { lobe, base, .. } = material;
-    if lobe.may_exceed_one() {
-        let (expected, cure) = ("a lobe whose albedo stays below 1", "choose another model or masking");
-        return Err(Error::bad_input(
-            "model",
-            expected,
-            format!("{} with {}", word(lobe.ndf), word(lobe.masking)),
-            cure,
-        ));
-    }
+    check_leaves_energy(lobe)?;
     if splits.contains(&Split::Reciprocal) && base != Diffuse::Lambert {
         let cure = "choose --diffuse lambert, or another --split";
         return Err(Error::bad_input("diffuse", "lambert, on which the reciprocal split stands", word(base), cure));

@@ -92,11 +92,12 @@ pub struct Baked {
 pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<Baked> {
     let (integrand, grid) = (request.lut.integrand(), request.grid()?);
     let (gpu, reason) = backend.device_unless(device_rule(request).err())?;
-    let arithmetic = if gpu.is_some() { f32_arithmetic(integrand) } else { F64_ARITHMETIC };
+    // The rules' bounds are rounded up by far more than f64 adds.
+    let arithmetic = if gpu.is_some() { f32_arithmetic(integrand) } else { 0.0 };
     let rule = match request.accuracy {
         Accuracy::Rule(rule) => rule,
         Accuracy::Tolerance(tolerance) => {
-            let rule = Rule::for_tolerance(integrand, tolerance, arithmetic - F64_ARITHMETIC);
+            let rule = Rule::for_tolerance(integrand, tolerance, arithmetic);
             rule.ok_or_else(|| Error::Internal(format!("no rule for the tolerance {tolerance}")))?
         }
     };
@@ -136,9 +137,6 @@ pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<
 /// The rule of a closed form.
 const NO_NODES: HSpaceRule =
     HSpaceRule { radial: 0, azimuth: 0, radial_horizon: 0, azimuth_horizon: 0, power: Power::Two };
-
-/// What f64 arithmetic adds to a rule's error.
-const F64_ARITHMETIC: f64 = 1e-15;
 
 /// How the integrals of a bake are computed.
 struct Job<'a> {

@@ -18,7 +18,7 @@ use crate::error::Result;
 use crate::integrate::ScaleBias;
 use crate::integrate::h_space::{HSpaceNodes, HSpaceRule, h_space};
 use crate::integrate::rule::{REFERENCE, Rule};
-use crate::lut::{Dfg, DfgChannels, Lut};
+use crate::lut::{Dfg, DfgChannels, Integrals, Lut};
 use crate::model::fresnel::schlick_weight;
 use crate::model::{Microfacet, Ndf};
 use crate::precision::Precision;
@@ -27,6 +27,7 @@ use crate::quadrature::slope_map::Power;
 use crate::report::map::Picture;
 use crate::request::Request;
 use crate::table::Table;
+use crate::units::{Alpha, PerceptualRoughness};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -72,7 +73,7 @@ pub const ROUGHNESSES: [f64; 6] = [0.15, 0.3, 0.45, 0.6, 0.8, 1.0];
 /// Texels along the edge of the rows' tables.
 const TABLE: usize = 64;
 
-/// The rule of the tables and of the furnace's integral: what it leaves is a hundredth of what the table's texels do.
+/// The rule of the furnace's integral, that of `h288`: what it leaves is a hundredth of what the table's texels do.
 const RULE: HSpaceRule =
     HSpaceRule { radial: 16, azimuth: 8, radial_horizon: 20, azimuth_horizon: 8, power: Power::Four };
 
@@ -93,9 +94,10 @@ impl Row {
         let grid = request.grid()?;
         let rule = Rule::for_tolerance(lobe, Precision::F16.default_tolerance(), 0.0).unwrap_or(REFERENCE);
         let points = cpu::bake(lobe, &grid, &rule, &|_| ());
-        let integrals = crate::lut::Integrals { points, averages: Vec::new() };
+        let integrals = Integrals { points, averages: Vec::new() };
         let table = grid.table(&lut, (request.x, request.y), &integrals, lut.provenance());
-        Ok(Row { lobe, scene, columns: ROUGHNESSES.map(|r| Column::new(lobe.ndf, r)).to_vec(), table })
+        let column = |&r: &f64| PerceptualRoughness::new(r).map(|r| Column::new(lobe.ndf, r));
+        Ok(Row { lobe, scene, columns: ROUGHNESSES.iter().map(column).collect::<Result<_>>()?, table })
     }
 
     /// What the shader needs of it.
@@ -112,8 +114,8 @@ impl Row {
 
 impl Column {
     /// The kernel is that of Karis 2013: half vectors by D n·h with n = v, light weighted by n·l.
-    fn new(ndf: Ndf, roughness: f64) -> Self {
-        let alpha = roughness * roughness;
+    fn new(ndf: Ndf, roughness: PerceptualRoughness) -> Self {
+        let alpha = Alpha::from(roughness).get();
         let (mut weight, mut p1, mut p2) = (0.0, 0.0, 0.0);
         // θ_h from 0 to π/4, where n·l = cos 2θ_h is 0, in the slope: y = tan θ_h/width.
         let end = 1.0 / ndf.width(alpha);
@@ -124,7 +126,7 @@ impl Column {
             let w = node.weight * y * ndf.slope_density(y * y, alpha) * x;
             (weight, p1, p2) = (weight + w, p1 + w * x, p2 + w * (1.5 * x * x - 0.5));
         }
-        Column { alpha, roughness, means: (p1 / weight, p2 / weight) }
+        Column { alpha, roughness: roughness.get(), means: (p1 / weight, p2 / weight) }
     }
 }
 

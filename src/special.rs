@@ -25,6 +25,12 @@ pub fn power_parts(x: f64, head: f64, rest: f64) -> (f64, f64) {
     (power_of_two(k), expm1_reduced((exponent - k) * LN_2))
 }
 
+/// k and ln m of x = 2^k m > 0, 1 ≤ m < 2.
+pub fn logarithm_parts(x: f64) -> (f64, f64) {
+    let k = libm::log2(x).floor();
+    (k, libm::log(x / power_of_two(k)))
+}
+
 /// ln x, for x > 0.
 pub fn logarithm(x: f64) -> f64 {
     libm::log(x)

@@ -77,6 +77,11 @@ impl Table {
         &self.values[(j * self.x.size + i) * n..][..n]
     }
 
+    /// The values of a channel, row by row.
+    pub fn plane(&self, channel: usize) -> Vec<f64> {
+        self.values.iter().skip(channel).step_by(self.channels.len()).copied().collect()
+    }
+
     /// What a renderer reads at the parameters (`px`, `py`): bilinear between texels, clamped at the border.
     pub fn bilinear(&self, px: f64, py: f64) -> Vec<f64> {
         let split = |axis: &Axis, p: f64| {

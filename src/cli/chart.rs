@@ -5,7 +5,6 @@ use super::table_args::TableArgs;
 use crate::backend::vulkan::gpu::GpuOptions;
 use crate::backend::{Backend, BackendChoice};
 use crate::encode::Format;
-use crate::encode::png::encode_rgb;
 use crate::error::{Error, Result};
 use crate::report::map::{panels, sequential};
 use clap::Subcommand;
@@ -27,15 +26,14 @@ pub fn run(arguments: &ChartArgs) -> Result<()> {
     for request in &job.requests {
         let table = crate::bake(request, &backend, &|_| ())?.table;
         let (n, size) = (table.channels.len(), (table.x.size, table.y.size));
-        let channel = |c: usize| table.values.iter().skip(c).step_by(n).copied().collect::<Vec<f64>>();
         let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-        let channels: Vec<Vec<f64>> = (0..n).map(channel).collect();
+        let channels: Vec<Vec<f64>> = (0..n).map(|c| table.plane(c)).collect();
         let scaled = channels.iter().map(|values| {
             let end = largest(values).max(f64::MIN_POSITIVE);
             values.iter().map(|value| value / end).collect()
         });
         let picture = panels(&scaled.collect::<Vec<_>>(), size, n, sequential);
-        output::write(&job.output, &encode_rgb(picture.width, picture.height, &picture.rgb)?)?;
+        output::write_picture(&job.output, &picture)?;
         let line = |(c, values): (usize, &Vec<f64>)| format!("{}: 0 to {:.4}", table.channels[c].name, largest(values));
         super::print(&channels.iter().enumerate().map(line).collect::<Vec<_>>().join(", "))?;
     }

@@ -4,7 +4,6 @@ use super::output;
 use super::table_args::{choice, lobe};
 use crate::axis::{Axis, AxisSpec, Parameter};
 use crate::encode::metadata::TOOL;
-use crate::encode::png::encode_rgb;
 use crate::error::{Error, Result};
 use crate::furnace::{Extremes, Furnace, Material, Split, furnaces};
 use crate::integrate::rule::{REFERENCE, Rule};
@@ -77,10 +76,7 @@ pub fn run(arguments: &FurnaceArgs) -> Result<()> {
         base: choice("diffuse", &arguments.diffuse)?,
     };
     if let Some(name) = &arguments.output {
-        if !name.ends_with(".png") {
-            return Err(Error::bad_input("output", "a name that ends in .png", format!("'{name}'"), "rename it"));
-        }
-        output::check(name)?;
+        output::check_picture(name)?;
     }
     // The reciprocal split is a lobe of its own, in the place of Lambert's.
     let splits = if material.base == Diffuse::Lambert { &Split::ALL[..] } else { &Split::ALL[..2] };
@@ -126,5 +122,5 @@ fn write_picture(name: &str, furnaces: &[Furnace], splits: usize, size: usize) -
     let deviation = |furnace: &Furnace| furnace.energy.iter().map(|energy| (energy - 1.0) / SCALE).collect();
     let values: Vec<Vec<f64>> = (0..splits).flat_map(of_split).map(deviation).collect();
     let picture = panels(&values, (size, size), F0S.len(), diverging);
-    output::write(name, &encode_rgb(picture.width, picture.height, &picture.rgb)?)
+    output::write_picture(name, &picture)
 }

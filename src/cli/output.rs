@@ -1,6 +1,8 @@
 //! Writing files so that there is always either the old file or the whole new one.
 
+use crate::encode::png::encode_rgb;
 use crate::error::{Complaint, Error, Result};
+use crate::report::map::Picture;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
@@ -37,6 +39,19 @@ pub fn write(name: &str, bytes: &[u8]) -> Result<()> {
         ));
     }
     write_file(Path::new(name), bytes).map_err(failed("write", name, "make room or choose another place with -o"))
+}
+
+/// Whether `name` can be written and is that of a picture.
+pub fn check_picture(name: &str) -> Result<()> {
+    if !name.ends_with(".png") {
+        return Err(Error::bad_input("output", "a name that ends in .png", format!("'{name}'"), "rename it"));
+    }
+    check(name)
+}
+
+/// Writes a picture as PNG.
+pub fn write_picture(name: &str, picture: &Picture) -> Result<()> {
+    write(name, &encode_rgb(picture.width, picture.height, &picture.rgb)?)
 }
 
 /// A temporary file beside the target, synced, renamed over it, the folder synced; a device or pipe is written directly.

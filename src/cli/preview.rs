@@ -3,7 +3,6 @@
 use super::output;
 use crate::backend::vulkan::gpu::GpuOptions;
 use crate::backend::{Backend, BackendChoice};
-use crate::encode::png::encode_rgb;
 use crate::error::{Error, Result};
 use crate::model::{Microfacet, Ndf};
 use crate::preview::{ROUGHNESSES, Row, Scene, render};
@@ -34,15 +33,12 @@ pub fn run(arguments: &PreviewArgs) -> Result<()> {
     if !(16..=512).contains(size) {
         return Err(Error::bad_input("size", "16 to 512", size.to_string(), "give a number in that range"));
     }
-    if !name.ends_with(".png") {
-        return Err(Error::bad_input("output", "a name that ends in .png", format!("'{name}'"), "rename it"));
-    }
+    output::check_picture(name)?;
     let rows = rows(scene)?;
-    output::check(name)?;
     let choice: BackendChoice = arguments.backend.parse()?;
     let backend = Backend::open(choice, &GpuOptions { device: arguments.device.clone(), ..GpuOptions::default() })?;
     let picture = render(&rows, *size, &backend)?;
-    output::write(name, &encode_rgb(picture.width, picture.height, &picture.rgb)?)?;
+    output::write_picture(name, &picture)?;
     let device = backend.gpu.as_ref().map_or("the CPU", |gpu| &gpu.info().name);
     let lobes: Vec<String> = rows.iter().map(|row| format!("{:?} {:?}", row.lobe.ndf, row.scene)).collect();
     let roughnesses = ROUGHNESSES.map(|r| r.to_string()).join(", ");

@@ -56,6 +56,11 @@ impl HSpaceRule {
         self.radial * self.azimuth + self.radial_horizon * self.azimuth_horizon
     }
 
+    /// The numbers of nodes in the order of the shader's `Rule`.
+    pub fn counts(&self) -> [usize; 4] {
+        [self.radial, self.azimuth, self.radial_horizon, self.azimuth_horizon]
+    }
+
     /// The rule's nodes.
     pub fn nodes(&self) -> HSpaceNodes {
         let k = self.azimuth as f64;

@@ -52,14 +52,8 @@ impl Energy {
     /// Refuses the lobes for which the numbers have no meaning.
     pub fn new(lobe: Microfacet, f0: F0, channels: EnergyChannels) -> Result<Self> {
         let cure = "choose another model or masking";
-        if lobe.may_exceed_one() && channels != EnergyChannels::Average {
-            let got = format!("{} with {}", word(lobe.ndf), word(lobe.masking));
-            return Err(Error::bad_input(
-                "model",
-                "one whose albedo stays below 1, so that it leaves energy",
-                got,
-                cure,
-            ));
+        if channels != EnergyChannels::Average {
+            check_leaves_energy(lobe)?;
         }
         if channels == EnergyChannels::Turquin && lobe.masking == Masking::Implicit {
             let expected = "a Smith term: only its loss is multiple scattering";
@@ -86,6 +80,15 @@ impl Energy {
             }
         }
     }
+}
+
+/// Refuses a lobe whose albedo can exceed 1: it leaves nothing to give back or to split.
+pub fn check_leaves_energy(lobe: Microfacet) -> Result<()> {
+    if !lobe.may_exceed_one() {
+        return Ok(());
+    }
+    let (got, cure) = (format!("{} with {}", word(lobe.ndf), word(lobe.masking)), "choose another model or masking");
+    Err(Error::bad_input("model", "one whose albedo stays below 1, so that it leaves energy", got, cure))
 }
 
 impl EnergyChannels {

@@ -9,7 +9,8 @@ use splitsum::model::fresnel::schlick_weight;
 use splitsum::model::ggx::{ggx_slope_density, ggx_smith};
 use splitsum::model::masking::{height_correlated, implicit, joint_smith, neubelt, schlick_smith, separable};
 use splitsum::special::{
-    arc_cosine, atanh_ratio, expm1_reduced, exponential, ierfc, log1p_ratio, logarithm, power_of_two, power_parts,
+    arc_cosine, atanh_ratio, expm1_reduced, exponential, ierfc, log1p_ratio, logarithm, logarithm_parts, power_of_two,
+    power_parts,
 };
 
 pub fn twins() -> Vec<Twin> {
@@ -60,12 +61,13 @@ pub fn twins() -> Vec<Twin> {
             scale: 0.0,
         },
         Twin {
-            name: "power_parts, power_of_two",
+            name: "logarithm_parts, power_parts, power_of_two",
             wgsl: "power_as_vector(p.x, p.y)",
             // Which of two powers of 2 is the nearer is a matter of rounding, but not their product with the rest.
             rust: Box::new(|a| {
                 let (power, rest) = power_parts(a[0], 0.1982421875, a[1]);
-                [power * (1.0 + rest), power_of_two(3.0), 0.0, 0.0]
+                let (k, log) = logarithm_parts(a[0]);
+                [power * (1.0 + rest), power_of_two(3.0), k, log]
             }),
             arguments: |random| [small(random), -0.03 * unit(random), 0.0, 0.0],
             ulps: 2.0,

@@ -248,7 +248,7 @@ fn cut(mu: f32, alpha: f32, place: f32) -> vec4<f32> {
 }
 fn power_as_vector(x: f32, rest: f32) -> vec4<f32> {
     let parts = power_parts(x, 0.1982421875, rest);
-    return vec4(parts.x * (1.0 + parts.y), power_of_two(3.0), 0.0, 0.0);
+    return vec4(parts.x * (1.0 + parts.y), power_of_two(3.0), logarithm_parts(x));
 }
 fn sum_of_multiples(x: f32) -> vec2<f32> {
     var sum = Sum(vec2<f32>(0.0), vec2<f32>(0.0));

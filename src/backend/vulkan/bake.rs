@@ -47,8 +47,8 @@ pub fn bake(
         let first = integrals.len();
         let count = tile.min(grid.len() - first);
         results.write(&poison[..count]);
-        let push = [first, first + count, rule.radial, rule.azimuth, rule.radial_horizon, rule.azimuth_horizon];
-        let elapsed = pipeline.run(bytemuck::cast_slice(&push.map(|n| n as u32)), count.div_ceil(group) as u32)?;
+        let push: Vec<u32> = [first, first + count].into_iter().chain(rule.counts()).map(|n| n as u32).collect();
+        let elapsed = pipeline.run(bytemuck::cast_slice(&push), count.div_ceil(group) as u32)?;
         let values = results.read::<[f32; 2]>(count);
         integrals.extend(values.into_iter().map(|[a, b]| ScaleBias { a: a.into(), b: b.into() }));
         progress(count);

@@ -30,8 +30,7 @@ pub fn render_row(gpu: &Gpu, kernel: &Kernel, row: &RowData, rule: &HSpaceRule) 
     let pixels = Buffer::with(gpu, &vec![[f32::NAN; 4]; count])?;
     let side = row.table.len().isqrt();
     let job = [row.cell, row.columns.len(), row.scene as usize, side];
-    let counts = [rule.radial, rule.azimuth, rule.radial_horizon, rule.azimuth_horizon];
-    let push: Vec<u32> = job.into_iter().chain(counts).map(|n| n as u32).collect();
+    let push: Vec<u32> = job.into_iter().chain(rule.counts()).map(|n| n as u32).collect();
     let buffers = [&nodes, &columns, &table, &pixels];
     let groups = count.div_ceil(kernel.workgroup) as u32;
     Pipeline::new(gpu, kernel, &buffers)?.run(bytemuck::cast_slice(&push), groups)?;
