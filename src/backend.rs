@@ -5,13 +5,14 @@ pub mod shader;
 pub mod vulkan;
 
 use crate::error::{Complaint, Error, Result};
+use std::cell::OnceCell;
 use std::str::FromStr;
 use vulkan::gpu::{Gpu, GpuOptions};
 
 /// Which backend is asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BackendChoice {
-    /// Vulkan where a device can do the work, else the CPU.
+    /// Vulkan where a device can do the work and the work pays for starting it, else the CPU.
     #[default]
     Auto,
     /// Vulkan or an error.
@@ -20,43 +21,76 @@ pub enum BackendChoice {
     Cpu,
 }
 
-/// An opened backend: a device, or none and the reason why.
+/// Seconds that it takes to start Vulkan: loader, driver, device and the compilation of a kernel.
+pub const VULKAN_START: f64 = 0.03;
+
+/// A backend: the CPU, or a device that is opened when a job is large enough for it.
 #[derive(Debug)]
 pub struct Backend {
-    /// The device; `None` computes on the CPU.
-    pub gpu: Option<Gpu>,
-    /// Why there is no device, where one was wanted.
-    pub reason: Option<String>,
     choice: BackendChoice,
+    options: GpuOptions,
+    /// Or why there is none.
+    gpu: OnceCell<std::result::Result<Gpu, String>>,
+}
+
+/// Who does a job, and why, where there was a choice.
+#[derive(Debug)]
+pub struct Chosen<'a> {
+    /// The device; `None` computes on the CPU.
+    pub gpu: Option<&'a Gpu>,
+    /// Why.
+    pub reason: Option<String>,
 }
 
 impl Backend {
     /// The CPU.
     pub fn cpu() -> Self {
-        Backend { gpu: None, reason: None, choice: BackendChoice::Cpu }
+        Backend { choice: BackendChoice::Cpu, options: GpuOptions::default(), gpu: OnceCell::new() }
     }
 
-    /// Opens what is asked for; only [`BackendChoice::Vulkan`] can fail for want of a device.
+    /// What is asked for; [`BackendChoice::Vulkan`] fails for want of a device, and so does a device that is named.
     pub fn open(choice: BackendChoice, options: &GpuOptions) -> Result<Self> {
-        match choice {
-            BackendChoice::Cpu => Ok(Backend::cpu()),
-            BackendChoice::Vulkan => Ok(Backend { gpu: Some(Gpu::open(options)?), reason: None, choice }),
-            BackendChoice::Auto => match Gpu::open(options) {
-                Ok(gpu) => Ok(Backend { gpu: Some(gpu), reason: None, choice }),
-                Err(Error::NoDevice(complaint)) if options.device.is_some() => Err(Error::NoDevice(complaint)),
-                Err(error) => Ok(Backend { gpu: None, reason: Some(error.to_string()), choice }),
+        let backend = Backend { choice, options: options.clone(), gpu: OnceCell::new() };
+        if choice == BackendChoice::Vulkan || options.device.is_some() {
+            let _ = backend.gpu.set(Ok(Gpu::open(options)?));
+        }
+        Ok(backend)
+    }
+
+    /// Who does a job that a device may be unable to do, `obstacle` saying why, and in which it saves the CPU so many seconds. An
+    /// error if the CPU is ruled out.
+    pub fn choose(&self, obstacle: Option<Complaint>, saved: f64) -> Result<Chosen<'_>> {
+        let on_cpu = |reason| Ok(Chosen { gpu: None, reason });
+        let (saved_ms, start_ms) = (1e3 * saved, 1e3 * VULKAN_START);
+        match (self.choice, obstacle) {
+            (BackendChoice::Cpu, _) => on_cpu(None),
+            (BackendChoice::Vulkan, Some(complaint)) => Err(Error::BadInput(complaint)),
+            (BackendChoice::Auto, Some(complaint)) => on_cpu(Some(complaint.to_string())),
+            // Whoever asks for a device, or how it is to work, wants one.
+            (BackendChoice::Auto, None) if self.options == GpuOptions::default() && saved <= VULKAN_START => {
+                on_cpu(Some(format!(
+                    "a device would save {saved_ms:.1} ms of the CPU's work, and starting one takes {start_ms:.0} ms"
+                )))
+            }
+            (choice, None) => match self.open_device() {
+                Ok(gpu) if choice == BackendChoice::Vulkan => Ok(Chosen { gpu: Some(gpu), reason: None }),
+                Ok(gpu) => {
+                    let reason =
+                        format!("it saves {saved_ms:.0} ms of the CPU's work, and starting it takes {start_ms:.0} ms");
+                    Ok(Chosen { gpu: Some(gpu), reason: Some(reason) })
+                }
+                Err(reason) => on_cpu(Some(reason.clone())),
             },
         }
     }
 
-    /// The device for a job that it may be unable to do, `obstacle` saying why; an error if the CPU was ruled out.
-    pub fn device_unless(&self, obstacle: Option<Complaint>) -> Result<(Option<&Gpu>, Option<String>)> {
-        match (&self.gpu, obstacle) {
-            (None, _) => Ok((None, self.reason.clone())),
-            (Some(gpu), None) => Ok((Some(gpu), None)),
-            (Some(_), Some(complaint)) if self.choice == BackendChoice::Auto => Ok((None, Some(complaint.to_string()))),
-            (Some(_), Some(complaint)) => Err(Error::BadInput(complaint)),
-        }
+    /// The device, if there is to be one.
+    pub fn device(&self) -> Option<&Gpu> {
+        if self.choice == BackendChoice::Cpu { None } else { self.open_device().as_ref().ok() }
+    }
+
+    fn open_device(&self) -> &std::result::Result<Gpu, String> {
+        self.gpu.get_or_init(|| Gpu::open(&self.options).map_err(|error| error.to_string()))
     }
 }
 

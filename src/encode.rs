@@ -70,7 +70,7 @@ fn rgb_planes(table: &Table, precision: Precision) -> Result<[Vec<u32>; 3]> {
         if channel >= n {
             return Ok(vec![0; texels]);
         }
-        precision.store(&table.plane(channel), table.provenance.error_bound)
+        precision.store(&table.plane(channel), table.provenance.worth.error_bound())
     };
     Ok([plane(0)?, plane(1)?, plane(2)?])
 }

@@ -6,22 +6,35 @@
 /// The largest finite half.
 pub const LARGEST: f64 = 65504.0;
 
-/// The bits of the half nearest to `value`, ties to even; beyond the largest half by half a step or more, infinity.
+/// The step between halves at the finite `value`: 2^(e-10) for 2^e <= |value| < 2^(e+1), and never below 2^-24.
+pub fn step(value: f64) -> f64 {
+    let exponent = (value.abs().to_bits() >> 52).max(1023 - 14);
+    f64::from_bits((exponent - 10) << 52)
+}
+
+/// The half nearest to `value`, ties to even; beyond the largest half by half a step or more, infinity.
+pub fn nearest(value: f64) -> f64 {
+    // A division by a power of two is exact, so that the one rounding is round_ties_even's. What a carry makes of the mantissa
+    // is the first half of the next binade.
+    let step = step(value);
+    let nearest = (value / step).round_ties_even() * step;
+    if nearest.abs() > LARGEST { f64::INFINITY.copysign(value) } else { nearest }
+}
+
+/// The bits of [`nearest`].
 pub fn round(value: f64) -> u16 {
     let sign = if value.is_sign_negative() { 0x8000 } else { 0 };
-    let v = value.abs();
+    let v = nearest(value).abs();
     if v.is_nan() {
         return 0x7e00;
     }
-    // The step between halves at v: 2^(e-10) for 2^e <= v < 2^(e+1), and never below 2^-24. A division by a power of two
-    // is exact, so the one rounding is round_ties_even's.
-    let exponent = ((v.to_bits() >> 52) as i32 - 1023).max(-14);
-    if exponent > 15 {
+    if v == f64::INFINITY {
         return sign | 0x7c00;
     }
-    let steps = (v / libm::ldexp(1.0, exponent - 10)).round_ties_even() as u16;
-    // A carry out of the mantissa runs into the exponent, which is just what the next binade is.
-    sign | ((((exponent + 14) as u16) << 10) + steps)
+    let step = step(v);
+    // Below 2^-14 the steps are subnormals; above, the leading one of the mantissa runs into the exponent.
+    let exponent = (step.to_bits() >> 52) as u16 - (1023 - 24);
+    sign | ((exponent << 10) + (v / step) as u16)
 }
 
 /// The value of a half.

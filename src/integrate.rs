@@ -8,7 +8,9 @@ pub mod h_space;
 pub mod l_space;
 pub mod reference;
 pub mod rule;
+pub mod surrogate;
 
+use crate::lanes::Real;
 use crate::model::fresnel::schlick_weight;
 use crate::model::{Diffuse, Microfacet};
 
@@ -39,11 +41,33 @@ impl Integrand {
 
 /// The two numbers of the split sum: E(F0) = F0 · `a` + `b` (Karis 2013).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ScaleBias {
+pub struct ScaleBias<R = f64> {
     /// A, the scale of F0.
-    pub a: f64,
+    pub a: R,
     /// B, the bias.
-    pub b: f64,
+    pub b: R,
+}
+
+impl<R: Real> ScaleBias<R> {
+    /// Nothing.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        ScaleBias { a: R::from(0.0), b: R::from(0.0) }
+    }
+
+    /// Adds `weight` times `part`.
+    #[inline(always)]
+    pub fn add(&mut self, weight: R, part: ScaleBias<R>) {
+        self.a = self.a + weight * part.a;
+        self.b = self.b + weight * part.b;
+    }
+
+    /// The same in the lanes where `value` is above 0, nothing in the others.
+    #[inline(always)]
+    pub fn where_positive(self, value: R) -> Self {
+        let zero = R::from(0.0);
+        ScaleBias { a: zero.select_below(value, self.a, zero), b: zero.select_below(value, self.b, zero) }
+    }
 }
 
 impl ScaleBias {
@@ -55,12 +79,6 @@ impl ScaleBias {
     /// E(F0) = F0 A + B.
     pub fn at_f0(self, f0: f64) -> f64 {
         f0 * self.a + self.b
-    }
-
-    /// Adds `weight` times `part`.
-    pub fn add(&mut self, weight: f64, part: ScaleBias) {
-        self.a += weight * part.a;
-        self.b += weight * part.b;
     }
 
     /// The limit α → 0 at fixed n·v: a perfect mirror, times `limit` ([`crate::model::Microfacet::smooth_limit`]).

@@ -106,23 +106,15 @@ impl Lut {
         }
     }
 
-    /// Appends the values of the channels of a texel at n·v = `mu`.
-    fn push_values(&self, mu: f64, integral: ScaleBias, average: ScaleBias, values: &mut Vec<f64>) {
+    /// The values of the channels of a texel at n·v = `mu`, the first as many as there are channels. As the integral grows and
+    /// the average falls each of them grows, or each falls.
+    pub fn values(&self, mu: f64, integral: ScaleBias, average: ScaleBias) -> [f64; 3] {
         match self {
-            Lut::Dfg(dfg) => dfg.channels.push_values(integral, values),
-            Lut::Energy(energy) => energy.push_values(mu, integral, average, values),
-            Lut::Diffuse(_) => values.push(integral.a),
+            Lut::Dfg(dfg) => dfg.channels.values(integral),
+            Lut::Energy(energy) => energy.values(mu, integral, average),
+            Lut::Diffuse(_) => [integral.a, 0.0, 0.0],
         }
     }
-}
-
-/// The integrals of a table: at every point of its grid, and where the family needs them the averages for every α.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Integrals {
-    /// In the order of the grid.
-    pub points: Vec<ScaleBias>,
-    /// In the order of the grid's α; empty where none are needed.
-    pub averages: Vec<ScaleBias>,
 }
 
 /// The parameters of a table's texels, apart from how the table lays them out: every pair of an α and an n·v.
@@ -155,6 +147,11 @@ impl Grid {
         }
     }
 
+    /// Every pair of these n·v and these α.
+    pub fn of(mus: Vec<f64>, alphas: Vec<f64>) -> Self {
+        Grid { mus, alphas, transposed: false }
+    }
+
     /// The number of texels.
     pub fn len(&self) -> usize {
         self.mus.len() * self.alphas.len()
@@ -175,18 +172,13 @@ impl Grid {
         (self.mus[index % self.mus.len()], self.alphas[index / self.mus.len()])
     }
 
-    /// The table of these integrals.
-    pub fn table(&self, lut: &Lut, (x, y): (Axis, Axis), integrals: &Integrals, provenance: Provenance) -> Table {
-        let channels = lut.channels().to_vec();
-        let mut values = Vec::with_capacity(channels.len() * self.len());
-        for j in 0..y.size {
-            for i in 0..x.size {
-                let (i, j) = if self.transposed { (j, i) } else { (i, j) };
-                let average = integrals.averages.get(j).copied().unwrap_or_default();
-                lut.push_values(self.mus[i], integrals.points[j * self.mus.len() + i], average, &mut values);
-            }
-        }
-        Table { x, y, channels, values, provenance }
+    /// The table with these values, as many for each point as there are `channels`, in the order of the points.
+    pub fn table(&self, channels: &[Channel], (x, y): (Axis, Axis), values: &[f64], provenance: Provenance) -> Table {
+        let (n, width) = (channels.len(), self.mus.len());
+        let texel = |i: usize, j: usize| if self.transposed { i * width + j } else { j * width + i };
+        let texels = (0..y.size).flat_map(|j| (0..x.size).map(move |i| texel(i, j)));
+        let values = texels.flat_map(|texel| &values[texel * n..][..n]).copied().collect();
+        Table { x, y, channels: channels.to_vec(), values, provenance }
     }
 }
 

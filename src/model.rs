@@ -11,6 +11,8 @@ pub mod charlie;
 pub mod diffuse;
 pub mod masking;
 
+use crate::lanes::Real;
+
 /// The distribution of microfacet normals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -84,7 +86,8 @@ impl Ndf {
     }
 
     /// The unit of slopes.
-    pub fn width(self, alpha: f64) -> f64 {
+    #[inline(always)]
+    pub fn width<R: Real>(self, alpha: R) -> R {
         match self {
             Ndf::Charlie => charlie::charlie_width(alpha),
             _ => alpha,
@@ -92,7 +95,8 @@ impl Ndf {
     }
 
     /// P = width² P22: the density of the scaled slope y = tan(θ_h)/width, given y²; 2π ∫ y P dy = 1 over y > 0.
-    pub fn slope_density(self, y2: f64, alpha: f64) -> f64 {
+    #[inline(always)]
+    pub fn slope_density<R: Real>(self, y2: R, alpha: R) -> R {
         match self {
             Ndf::Ggx => ggx::ggx_slope_density(y2),
             Ndf::Beckmann | Ndf::BeckmannWalter => beckmann::beckmann_slope_density(y2),
@@ -102,11 +106,12 @@ impl Ndf {
     }
 
     /// The scaled slope beyond which less than exp(-`depth`) of the lobe lies; 1e18 where the tail is a power of y.
-    pub fn slope_end(self, alpha: f64, depth: f64) -> f64 {
+    #[inline(always)]
+    pub fn slope_end<R: Real>(self, alpha: R, depth: f64) -> R {
         match self {
-            Ndf::Ggx | Ndf::Charlie => 1e18,
-            Ndf::Beckmann | Ndf::BeckmannWalter => depth.sqrt(),
-            Ndf::BlinnPhong => blinn_phong::blinn_phong_end(alpha, depth),
+            Ndf::Ggx | Ndf::Charlie => R::from(1e18),
+            Ndf::Beckmann | Ndf::BeckmannWalter => R::from(depth.sqrt()),
+            Ndf::BlinnPhong => alpha.zip(alpha, |alpha, _| blinn_phong::blinn_phong_end(alpha, depth)),
         }
     }
 
@@ -116,12 +121,13 @@ impl Ndf {
     }
 
     /// c (1 + 2Λ(c)) for the cosine `c`: what Smith masking needs, finite at c = 0.
-    pub fn smith(self, c: f64, alpha: f64) -> f64 {
+    #[inline(always)]
+    pub fn smith<R: Real>(self, c: R, alpha: R) -> R {
         match self {
             Ndf::Ggx => ggx::ggx_smith(c, alpha),
-            Ndf::Beckmann | Ndf::BlinnPhong => beckmann::beckmann_smith(c, alpha),
-            Ndf::BeckmannWalter => beckmann::walter_smith(c, alpha),
-            Ndf::Charlie => charlie::charlie_smith(c, alpha),
+            Ndf::Beckmann | Ndf::BlinnPhong => c.zip(alpha, beckmann::beckmann_smith),
+            Ndf::BeckmannWalter => c.zip(alpha, beckmann::walter_smith),
+            Ndf::Charlie => c.zip(alpha, charlie::charlie_smith),
         }
     }
 
@@ -176,14 +182,30 @@ impl Microfacet {
         Ndf::ALL.into_iter().flat_map(|ndf| ndf.maskings().iter().map(move |&masking| Microfacet { ndf, masking }))
     }
 
-    /// n·l V(l, v) = G(l, v) / (4 n·v) for n·l = `x` and n·v = `mu`.
-    pub fn cosine_visibility(self, x: f64, mu: f64, alpha: f64) -> f64 {
-        use masking::{height_correlated, implicit, joint_smith, neubelt, schlick_smith, separable};
+    /// What the masking term takes of n·v: c (1 + 2Λ(c)) of the term that it is made of.
+    #[inline(always)]
+    pub fn masking_smith<R: Real>(self, c: R, alpha: R) -> R {
         match self.masking {
-            Masking::HeightCorrelated => height_correlated(x, mu, self.ndf.smith(x, alpha), self.ndf.smith(mu, alpha)),
-            Masking::Separable => separable(x, mu, self.ndf.smith(x, alpha), self.ndf.smith(mu, alpha)),
+            Masking::HeightCorrelated | Masking::Separable => self.ndf.smith(c, alpha),
+            Masking::Joint => masking::joint_smith(c, alpha),
+            Masking::SchlickSmith | Masking::Implicit | Masking::Neubelt => c,
+        }
+    }
+
+    /// n·l V(l, v) = G(l, v) / (4 n·v) for n·l = `x` and n·v = `mu`.
+    #[inline(always)]
+    pub fn cosine_visibility<R: Real>(self, x: R, mu: R, alpha: R) -> R {
+        self.cosine_visibility_at(x, mu, self.masking_smith(mu, alpha), alpha)
+    }
+
+    /// The same with [`Microfacet::masking_smith`] of n·v, which a loop over n·l works out once.
+    #[inline(always)]
+    pub fn cosine_visibility_at<R: Real>(self, x: R, mu: R, smu: R, alpha: R) -> R {
+        use masking::{height_correlated, implicit, neubelt, schlick_smith, separable};
+        match self.masking {
+            Masking::HeightCorrelated | Masking::Joint => height_correlated(x, mu, self.masking_smith(x, alpha), smu),
+            Masking::Separable => separable(x, mu, self.masking_smith(x, alpha), smu),
             Masking::SchlickSmith => schlick_smith(x, mu, alpha),
-            Masking::Joint => height_correlated(x, mu, joint_smith(x, alpha), joint_smith(mu, alpha)),
             Masking::Implicit => implicit(x),
             Masking::Neubelt => neubelt(x, mu),
         }
@@ -209,12 +231,13 @@ impl Microfacet {
     }
 
     /// The n·l at which the masking term is not smooth.
-    pub fn break_at(self, alpha: f64) -> Option<f64> {
+    #[inline(always)]
+    pub fn break_at<R: Real>(self, alpha: R) -> Option<R> {
         let smith = matches!(self.masking, Masking::HeightCorrelated | Masking::Separable);
         match self.ndf {
-            Ndf::BeckmannWalter if smith => Some(beckmann::walter_break(alpha)),
+            Ndf::BeckmannWalter if smith => Some(alpha.zip(alpha, |alpha, _| beckmann::walter_break(alpha))),
             // The two branches of the fit meet here with the same slope.
-            Ndf::Charlie if smith => Some(0.5),
+            Ndf::Charlie if smith => Some(R::from(0.5)),
             _ => None,
         }
     }

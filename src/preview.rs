@@ -18,7 +18,7 @@ use crate::error::Result;
 use crate::integrate::ScaleBias;
 use crate::integrate::h_space::{HSpaceNodes, HSpaceRule, h_space};
 use crate::integrate::rule::{REFERENCE, Rule};
-use crate::lut::{Dfg, DfgChannels, Integrals, Lut};
+use crate::lut::{Dfg, DfgChannels, Lut};
 use crate::model::fresnel::schlick_weight;
 use crate::model::{Microfacet, Ndf};
 use crate::precision::Precision;
@@ -92,10 +92,9 @@ impl Row {
         let lut = Lut::Dfg(Dfg { lobe, channels: DfgChannels::Ab });
         let request = Request::with_default_axes(lut, (TABLE, TABLE), Precision::F32)?;
         let grid = request.grid()?;
-        let rule = Rule::for_tolerance(lobe, Precision::F16.default_tolerance(), 0.0).unwrap_or(REFERENCE);
-        let points = cpu::bake(lobe, &grid, &rule, &|_| ());
-        let integrals = Integrals { points, averages: Vec::new() };
-        let table = grid.table(&lut, (request.x, request.y), &integrals, lut.provenance());
+        let rule = Rule::for_cpu(lobe, Precision::F16.default_tolerance(), grid.len()).unwrap_or(REFERENCE);
+        let values: Vec<f64> = cpu::bake(lobe, &grid, &rule, &|_| ()).iter().flat_map(|v| [v.a, v.b]).collect();
+        let table = grid.table(lut.channels(), (request.x, request.y), &values, lut.provenance());
         let column = |&r: &f64| PerceptualRoughness::new(r).map(|r| Column::new(lobe.ndf, r));
         Ok(Row { lobe, scene, columns: ROUGHNESSES.iter().map(column).collect::<Result<_>>()?, table })
     }
@@ -135,7 +134,7 @@ pub fn render(rows: &[Row], cell: usize, backend: &Backend) -> Result<Picture> {
     let width = cell * ROUGHNESSES.len();
     let mut picture = Picture::new(width, cell * rows.len(), [0; 3]);
     for (index, row) in rows.iter().enumerate() {
-        let pixels = match &backend.gpu {
+        let pixels = match backend.device() {
             Some(gpu) => render_row(gpu, &preview_kernel(row.lobe, RULE.power)?, &row.data(cell), &RULE)?,
             None => render_row_on_cpu(row, cell),
         };

@@ -3,9 +3,8 @@
 pub mod map;
 
 use crate::backend::vulkan::devices::DeviceInfo;
-use crate::certify::Deviation;
-use crate::integrate::rule::Rule;
-use crate::request::Request;
+use crate::certificate::{Certificate, Stage};
+use crate::certify::deviation::Deviation;
 use serde::Serialize;
 use std::fmt;
 
@@ -22,32 +21,54 @@ pub enum Computed {
     Vulkan {
         /// Which.
         device: DeviceInfo,
-        /// How far it was from the CPU, by the same rule in f64.
-        cross_check: Deviation,
+        /// Why a device, where there was a choice.
+        reason: Option<String>,
+        /// Seconds that its dispatches took, by its own clock; none where it has no clock.
+        device_seconds: Option<f64>,
     },
 }
 
-/// What a table's numbers are worth.
+/// What the numbers of a table that is not certified are worth.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Accuracy {
     /// The rule that integrated.
     pub rule: &'static str,
-    /// Evaluations of the integrand for a texel; `None` for the reference.
-    pub evaluations: Option<usize>,
+    /// Evaluations of the integrand for a texel, on the average.
+    pub evaluations: f64,
     /// The largest absolute error of A and of B: that of the rule and of the arithmetic.
     pub bound: f64,
+    /// How far a device was from the CPU, by the same rule in f64.
+    pub cross_check: Option<Deviation>,
     /// The largest error found against the double-exponential reference.
     pub measured: Deviation,
     /// The largest error that storing a value in [0, 1] adds.
     pub rounding: f64,
 }
 
+/// What the numbers of a table are worth.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Worth {
+    /// They are certified one by one.
+    Certified {
+        /// What the file says too.
+        certificate: Certificate,
+        /// How it was come by.
+        stages: Vec<Stage>,
+    },
+    /// They are not.
+    Uncertified {
+        /// What is known instead.
+        accuracy: Accuracy,
+    },
+}
+
 /// Seconds of wall time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Seconds {
-    /// Integrating, on a device with compilation and transfer.
+    /// Integrating: on a device with compilation and transfer, on the CPU the first stage.
     pub integrate: f64,
-    /// Cross-checking and measuring.
+    /// Certifying what was left, or cross-checking and measuring.
     pub check: f64,
 }
 
@@ -63,21 +84,26 @@ pub struct Report {
     /// Who computed it.
     pub computed: Computed,
     /// What its numbers are worth.
-    pub accuracy: Accuracy,
+    #[serde(flatten)]
+    pub worth: Worth,
     /// How long it took.
     pub seconds: Seconds,
 }
 
-impl Accuracy {
-    /// Of a table by `rule` with an arithmetic of that error.
-    pub fn new(request: &Request, rule: &Rule, arithmetic: f64, measured: Deviation) -> Self {
-        let integrand = request.lut.integrand();
-        Accuracy {
-            rule: rule.name,
-            evaluations: rule.evaluations(),
-            bound: rule.bound(integrand) + arithmetic,
-            measured,
-            rounding: request.precision.half_step(),
+impl Report {
+    /// The certificate, if there is one.
+    pub fn certificate(&self) -> Option<&Certificate> {
+        match &self.worth {
+            Worth::Certified { certificate, .. } => Some(certificate),
+            Worth::Uncertified { .. } => None,
+        }
+    }
+
+    /// What is known of a table that is not certified.
+    pub fn accuracy(&self) -> Option<&Accuracy> {
+        match &self.worth {
+            Worth::Certified { .. } => None,
+            Worth::Uncertified { accuracy } => Some(accuracy),
         }
     }
 }
@@ -91,30 +117,54 @@ impl fmt::Display for Computed {
     }
 }
 
+impl fmt::Display for Worth {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Worth::Certified { certificate, stages } => {
+                writeln!(f, "certified {}", certificate.promise)?;
+                for Stage { by, error_of_a, texels, decided, .. } in stages {
+                    writeln!(f, "          {decided} of {texels} texels by {by}, within {error_of_a:.1e}")?;
+                }
+                if let Some(distance) = certificate.smallest_distance {
+                    writeln!(f, "          the nearest is {distance:.1e} from a boundary of rounding")?;
+                }
+                write!(f, "blake3    {}", certificate.blake3)
+            }
+            Worth::Uncertified { accuracy } => {
+                let Accuracy { rule, evaluations, bound, cross_check, measured, rounding } = accuracy;
+                if let Some(Deviation { texels, .. }) = cross_check {
+                    let largest = cross_check.map_or(0.0, |deviation| deviation.largest());
+                    writeln!(f, "checked   by the CPU at {texels} texels: largest difference {largest:.1e}")?;
+                }
+                writeln!(f, "rule      {rule}: {evaluations:.0} evaluations for a texel; not certified")?;
+                let Deviation { a, b, texels } = measured;
+                writeln!(f, "error     at most {bound:.1e}; measured at {texels} texels: A {a:.1e}, B {b:.1e}")?;
+                write!(f, "rounding  at most {rounding:.1e} more, in the file")
+            }
+        }
+    }
+}
+
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [width, height] = self.size;
         write!(f, "computed  by {}", self.computed)?;
         match &self.computed {
-            Computed::Cpu { reason: None } => writeln!(f)?,
+            Computed::Cpu { reason: None } | Computed::Vulkan { reason: None, .. } => writeln!(f)?,
             Computed::Cpu { reason: Some(reason) } => writeln!(f, "; not on Vulkan: {reason}")?,
-            Computed::Vulkan { cross_check, .. } => {
-                let (texels, largest) = (cross_check.texels, cross_check.largest());
-                writeln!(f, "\nchecked   by the CPU at {texels} texels: largest difference {largest:.1e}")?;
-            }
+            Computed::Vulkan { reason: Some(reason), .. } => writeln!(f, "; {reason}")?,
         }
-        let Accuracy { rule, evaluations, bound, measured, rounding } = &self.accuracy;
-        let evaluations = evaluations.map_or("double exponential".into(), |n| format!("{n} evaluations for a texel"));
-        writeln!(f, "rule      {rule}: {evaluations}")?;
-        let Deviation { a, b, texels } = measured;
-        writeln!(f, "error     at most {bound:.1e}; measured at {texels} texels: A {a:.1e}, B {b:.1e}")?;
-        writeln!(f, "rounding  at most {rounding:.1e} more, in the file")?;
+        writeln!(f, "{}", self.worth)?;
         let [columns, rows] = self.clamped;
         if columns + rows > 0 {
             writeln!(f, "clamped   {columns} columns and {rows} rows to the min of their axes")?;
         }
         let Seconds { integrate, check } = self.seconds;
         let each = 1e6 * integrate / (width * height) as f64;
-        write!(f, "time      {:.1} ms, {each:.2} µs for a texel; checks {:.1} ms", 1e3 * integrate, 1e3 * check)
+        write!(f, "time      {:.1} ms, {each:.2} µs for a texel; checks {:.1} ms", 1e3 * integrate, 1e3 * check)?;
+        if let Computed::Vulkan { device_seconds: Some(seconds), .. } = &self.computed {
+            write!(f, "; of the former {:.2} ms on the device", 1e3 * seconds)?;
+        }
+        Ok(())
     }
 }

@@ -10,20 +10,32 @@ use crate::precision::Precision;
 use crate::units::word;
 use std::fmt;
 
-/// How exact the integrals have to be.
+/// How exact the values have to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Accuracy {
-    /// Within this absolute error, by whatever rule is the cheapest.
+    /// Certified: rounded correctly, or in f32 within this absolute error before it is rounded.
+    Certified(f64),
+    /// Not certified, the integrals within this absolute error, by whatever rule is the cheapest.
     Tolerance(f64),
-    /// By this rule.
+    /// Not certified, by this rule.
     Rule(Rule),
 }
 
 impl Accuracy {
-    /// What befits the precision, but no less than a device can keep of the table's integrand.
+    /// Certified, in f32 with a tolerance that befits it and the lobe.
     pub fn by_default(lut: &Lut, precision: Precision) -> Self {
-        Accuracy::Tolerance(precision.default_tolerance().max(Rule::device_tolerance(lut.integrand())))
+        Accuracy::Certified(default_tolerance(lut, precision))
     }
+
+    /// Not certified, with a tolerance that befits the precision and the lobe.
+    pub fn uncertified(lut: &Lut, precision: Precision) -> Self {
+        Accuracy::Tolerance(default_tolerance(lut, precision))
+    }
+}
+
+/// What befits the precision, but no less than a device can keep of the table's integrand.
+fn default_tolerance(lut: &Lut, precision: Precision) -> f64 {
+    precision.default_tolerance().max(Rule::device_tolerance(lut.integrand()))
 }
 
 /// A checked job.
@@ -53,8 +65,9 @@ impl Request {
             check_lobe(lobe, &grid)?;
         }
         match accuracy {
-            Accuracy::Tolerance(tolerance) => {
-                if Rule::for_tolerance(integrand, tolerance, 0.0).is_none() || tolerance > 0.1 {
+            Accuracy::Certified(tolerance) | Accuracy::Tolerance(tolerance) => {
+                let needs_rule = matches!(accuracy, Accuracy::Tolerance(_)) || precision == Precision::F32;
+                if needs_rule && (Rule::for_cpu(integrand, tolerance, grid.len()).is_none() || tolerance > 0.1) {
                     return Err(Error::bad_input(
                         "tolerance",
                         format!("an absolute error from {:e} to 0.1", Rule::sharpest_bound(integrand)),
@@ -129,8 +142,12 @@ impl fmt::Display for Request {
         write!(f, " --size {}x{} --x {} --y {}", self.x.size, self.y.size, self.x.spec, self.y.spec)?;
         write!(f, " --precision {}", word(self.precision))?;
         match self.accuracy {
-            Accuracy::Tolerance(tolerance) => write!(f, " --tolerance {tolerance:e}"),
-            Accuracy::Rule(rule) => write!(f, " --rule {}", rule.name),
+            Accuracy::Certified(tolerance) if self.precision == Precision::F32 => {
+                write!(f, " --tolerance {tolerance:e}")
+            }
+            Accuracy::Certified(_) => Ok(()),
+            Accuracy::Tolerance(tolerance) => write!(f, " --certify off --tolerance {tolerance:e}"),
+            Accuracy::Rule(rule) => write!(f, " --certify off --rule {}", rule.name),
         }
     }
 }

@@ -1,11 +1,30 @@
-//! Special functions of the models. In f64 they come from libm, the same bits everywhere; their twins on a device use
-//! only + - × ÷, since a driver's own exp and log may be off by dozens of ulps.
+//! Special functions of the models. In f64 they come from libm, the same bits everywhere, but for the two that distributions
+//! of normals take at every evaluation: those are written out, so that they run in vector registers. Their twins on a
+//! device use only + - × ÷, since a driver's own exp and log may be off by dozens of ulps.
 
-use std::f64::consts::{LN_2, PI};
+use crate::lanes::Real;
+use std::f64::consts::{LN_2, LOG2_E, PI, SQRT_2};
 
-/// exp(x).
-pub fn exponential(x: f64) -> f64 {
-    libm::exp(x)
+/// Added to a number below 2^51, it leaves its nearest whole number in the low bits.
+const SHIFT: f64 = 6_755_399_441_055_744.0;
+
+/// exp(x) for x ≤ 709, within 2 ulps: 2^k e^r with |r| ≤ ln(2)/2, by Taylor's series to r^13, whose rest is 4e-18. 0 below
+/// e^-650, since products with such numbers are subnormal, and slow.
+#[inline(always)]
+pub fn exponential<R: Real>(x: R) -> R {
+    // ln 2 in two parts, the first with so few bits that its product with k is exact.
+    const HEAD: f64 = 0.693_147_180_369_123_8;
+    const REST: f64 = 1.908_214_929_270_587_7e-10;
+    let floor = R::from(-650.0);
+    let (below, x) = (x, x.most(floor));
+    let k = (x * LOG2_E + SHIFT) - SHIFT;
+    let r = x - k * HEAD - k * REST;
+    let mut sum = r * (1.0 / 13.0) + 1.0;
+    for n in (1..13).rev() {
+        sum = sum * r * (1.0 / f64::from(n)) + 1.0;
+    }
+    let power = k.zip(k, |k, _| f64::from_bits((k + SHIFT).to_bits().wrapping_shl(52).wrapping_add(1023 << 52)));
+    below.select_below(floor, R::from(0.0), sum * power)
 }
 
 /// e^r - 1.
@@ -36,9 +55,28 @@ pub fn logarithm(x: f64) -> f64 {
     libm::log(x)
 }
 
-/// ln(1+u)/u for u ≥ 0, 1 at u = 0.
-pub fn log1p_ratio(u: f64) -> f64 {
-    if u == 0.0 { 1.0 } else { libm::log1p(u) / u }
+/// ln(1+u)/u for u ≥ 0, 1 at u = 0, within 4 ulps: with 1+u = 2^k m, m near 1, and s = (m-1)/(m+1) the logarithm is
+/// k ln 2 + 2 atanh(s), atanh by its series to s^23, whose rest is 1e-20.
+#[inline(always)]
+pub fn log1p_ratio<R: Real>(u: R) -> R {
+    const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
+    let y = u + 1.0;
+    // Halved, the bits of y have their mantissa in [1, 2); those beyond √2 count as the next power of two.
+    let carry = |y: f64| (y * (1.0 / SQRT_2)).to_bits() & EXPONENT;
+    let k =
+        y.zip(u, |y, _| f64::from_bits((carry(y) >> 52) | 0x4330_0000_0000_0000) - (4_503_599_627_370_496.0 + 1022.0));
+    let m = y.zip(u, |y, _| f64::from_bits(y.to_bits().wrapping_sub(carry(y)).wrapping_add(1022 << 52)));
+    // Without a power of two, m - 1 is u itself, not what is left of it in 1 + u.
+    let near = R::from(0.5).select_below(k, (m - 1.0) / (m + 1.0), u / (u + 2.0));
+    let s2 = near * near;
+    let mut sum = R::from(1.0 / 23.0);
+    for n in (0..11).rev() {
+        sum = sum * s2 + 1.0 / f64::from(2 * n + 1);
+    }
+    let tiny = R::from(1e-300);
+    // Both parts divided by u, so that u → 0 has a limit: atanh(s)/u = (s/u) (1 + s²/3 + …).
+    let s_by_u = R::from(0.5).select_below(k, near / u.most(tiny), (u + 2.0).recip());
+    k * LN_2 / u.most(tiny) + s_by_u * 2.0 * sum
 }
 
 /// i¹erfc(a) = exp(-a²)/√π - a erfc(a), the integral of erfc from a ≥ 0 to ∞ (Abramowitz and Stegun, 7.2.1).

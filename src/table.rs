@@ -1,6 +1,9 @@
 //! A table of numbers over two axes: values, channels, lookup as a renderer does it, and how far two tables are apart.
 
 use crate::axis::Axis;
+use crate::certificate::Certificate;
+use crate::error::Result;
+use crate::precision::Precision;
 use serde::Serialize;
 
 /// A channel of a table.
@@ -32,16 +35,46 @@ pub struct Provenance {
     pub f0: Option<f64>,
     /// What roughness means.
     pub roughness: &'static str,
-    /// The quadrature rule.
-    pub rule: &'static str,
-    /// The largest absolute error of an integral, before it is stored.
-    pub error_bound: f64,
-    /// The largest error found against the double-exponential reference, and over how many texels.
-    pub measured_error: (f64, usize),
-    /// Backend, arithmetic and device.
-    pub computed_by: String,
+    /// What the values are worth.
+    #[serde(flatten)]
+    pub worth: Worth,
     /// The command that repeats the bake.
     pub command: String,
+}
+
+/// What the values of a table are worth.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Worth {
+    /// Certified one by one.
+    Certificate(Certificate),
+    /// Not certified, but integrated by a rule whose error is bounded.
+    Uncertified {
+        /// The quadrature rule.
+        rule: &'static str,
+        /// The largest absolute error of an integral, before it is stored.
+        error_bound: f64,
+        /// The largest error found against the double-exponential reference, and over how many texels.
+        measured_error: (f64, usize),
+        /// Backend, arithmetic and device.
+        computed_by: String,
+    },
+}
+
+impl Default for Worth {
+    fn default() -> Self {
+        Worth::Certificate(Certificate::default())
+    }
+}
+
+impl Worth {
+    /// The largest error that an integral may have before it is stored.
+    pub fn error_bound(&self) -> f64 {
+        match self {
+            Worth::Certificate(certificate) => certificate.bound,
+            Worth::Uncertified { error_bound, .. } => *error_bound,
+        }
+    }
 }
 
 /// Values over two axes, row by row, the channels of a texel side by side.
@@ -75,6 +108,14 @@ impl Table {
     pub fn texel(&self, i: usize, j: usize) -> &[f64] {
         let n = self.channels.len();
         &self.values[(j * self.x.size + i) * n..][..n]
+    }
+
+    /// BLAKE3 of the values as they are stored: little-endian, row by row, the channels of a texel side by side.
+    pub fn hash(&self, precision: Precision) -> Result<String> {
+        let bits = precision.store(&self.values, 0.0)?;
+        let stored = |bits: &u32| bits.to_le_bytes().into_iter().take(precision.bytes());
+        let bytes: Vec<u8> = bits.iter().flat_map(stored).collect();
+        Ok(blake3::hash(&bytes).to_hex().to_string())
     }
 
     /// The values of a channel, row by row.

@@ -11,7 +11,7 @@ use splitsum::encode::{Format, encode};
 use splitsum::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
 use splitsum::model::Masking;
 use splitsum::precision::Precision;
-use splitsum::request::Request;
+use splitsum::request::{Accuracy, Request};
 use splitsum::table::Table;
 use splitsum::units::F0;
 use splitsum::{bake, half};
@@ -74,10 +74,29 @@ fn metadata_names_every_convention() {
     assert_eq!(metadata["x"]["texel"], "nov = t, t = clamp((i + 0.5)/12, 0, 1)");
     assert_eq!(metadata["y"]["parameter"], "roughness");
     assert_eq!(metadata["channels"][1], "G = 0 (unused)");
-    assert_eq!(metadata["computed_by"], "CPU, f64");
-    assert!(metadata["error_bound"].as_f64().unwrap() <= Precision::F16.default_tolerance());
-    assert!(metadata["measured_error"][0].as_f64().unwrap() <= metadata["error_bound"].as_f64().unwrap());
+    let certificate = &metadata["certificate"];
+    assert_eq!((&certificate["texels"], &certificate["undecided"]), (&60.into(), &0.into()));
+    assert_eq!(certificate["bound"].as_f64().unwrap(), Precision::F16.half_step());
+    assert_eq!(certificate["blake3"], table.hash(Precision::F16).unwrap());
+    assert!(certificate["promise"].as_str().unwrap().contains("rounded once"));
+    assert!(metadata.get("computed_by").is_none(), "the same file, whoever computed it");
     assert!(metadata["command"].as_str().unwrap().starts_with("splitsum bake --lut dfg --model ggx"));
+}
+
+#[test]
+fn a_table_that_is_not_certified_says_so_and_what_is_known_instead() {
+    let lut = Lut::Dfg(Dfg { lobe: ggx(Masking::HeightCorrelated), channels: DfgChannels::Ab });
+    let axes = Request::with_default_axes(lut, (12, 5), Precision::F16).unwrap();
+    let uncertified = Accuracy::uncertified(&lut, Precision::F16);
+    let request = Request::new(lut, axes.x, axes.y, uncertified, Precision::F16).unwrap();
+    let table = bake(&request, &Backend::cpu(), &|_| ()).unwrap().table;
+    let (.., metadata) = read_exr(&encode(std::slice::from_ref(&table), Format::Exr, Precision::F16).unwrap());
+    assert!(metadata.get("certificate").is_none());
+    let known = &metadata["uncertified"];
+    assert_eq!(known["computed_by"], "CPU, f64");
+    assert!(known["error_bound"].as_f64().unwrap() <= Precision::F16.default_tolerance());
+    assert!(known["measured_error"][0].as_f64().unwrap() <= known["error_bound"].as_f64().unwrap());
+    assert!(metadata["command"].as_str().unwrap().contains("--certify off"));
 }
 
 #[test]
@@ -136,6 +155,6 @@ fn values_that_a_precision_cannot_hold_are_refused() {
     assert!(encode(std::slice::from_ref(&table), Format::Exr, Precision::F16).is_ok());
     assert!(encode(std::slice::from_ref(&table), Format::Png, Precision::Unorm8).is_err());
     // Within the table's own error of 1, 1 is meant.
-    table.values[3] = 1.0 + 0.5 * table.provenance.error_bound;
+    table.values[3] = 1.0 + 0.5 * table.provenance.worth.error_bound();
     assert!(encode(std::slice::from_ref(&table), Format::Png, Precision::Unorm8).is_ok());
 }

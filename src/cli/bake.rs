@@ -19,7 +19,7 @@ pub struct BakeArgs {
     /// Bake every [[table]] of this TOML file; its keys are the names of the flags above, its outputs relative to it
     #[arg(long, value_name = "FILE", help_heading = "The run", conflicts_with_all = TABLE_FLAGS)]
     config: Option<String>,
-    /// auto (Vulkan where a device can do it, else the CPU), vulkan or cpu
+    /// auto (Vulkan where a device can do it and the work pays for starting it, else the CPU), vulkan or cpu
     #[arg(long, value_name = "NAME", default_value = "auto", help_heading = "The run")]
     backend: String,
     /// Vulkan device, by UUID or a part of its name that no other has [default: discrete, integrated, virtual, software]
@@ -51,7 +51,7 @@ pub struct BakeArgs {
     mt: Option<String>,
 }
 
-const TABLE_FLAGS: [&str; 14] = [
+const TABLE_FLAGS: [&str; 15] = [
     "lut",
     "model",
     "masking",
@@ -62,6 +62,7 @@ const TABLE_FLAGS: [&str; 14] = [
     "x",
     "y",
     "precision",
+    "certify",
     "tolerance",
     "rule",
     "format",

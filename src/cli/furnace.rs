@@ -83,7 +83,7 @@ pub fn run(arguments: &FurnaceArgs) -> Result<()> {
     let axis =
         |parameter| Axis::new(AxisSpec { nodes: crate::axis::Nodes::Edges, ..AxisSpec::of(parameter) }, arguments.size);
     let grid = Grid::new(&axis(Parameter::Nov)?, &axis(Parameter::Roughness)?)?;
-    let rule = Rule::for_tolerance(material.lobe, TOLERANCE, 0.0).unwrap_or(REFERENCE);
+    let rule = Rule::for_cpu(material.lobe, TOLERANCE, grid.len()).unwrap_or(REFERENCE);
     let furnaces = furnaces(material, &F0S, splits, &grid, &rule)?;
     if let Some(name) = &arguments.output {
         write_picture(name, &furnaces, splits.len(), arguments.size)?;

@@ -39,7 +39,7 @@ pub fn run(arguments: &PreviewArgs) -> Result<()> {
     let backend = Backend::open(choice, &GpuOptions { device: arguments.device.clone(), ..GpuOptions::default() })?;
     let picture = render(&rows, *size, &backend)?;
     output::write_picture(name, &picture)?;
-    let device = backend.gpu.as_ref().map_or("the CPU", |gpu| &gpu.info().name);
+    let device = backend.device().map_or("the CPU", |gpu| &gpu.info().name);
     let lobes: Vec<String> = rows.iter().map(|row| format!("{:?} {:?}", row.lobe.ndf, row.scene)).collect();
     let roughnesses = ROUGHNESSES.map(|r| r.to_string()).join(", ");
     let lines =

@@ -8,7 +8,7 @@ use crate::lut::{Dfg, Energy, Lut};
 use crate::model::{Microfacet, Ndf};
 use crate::precision::Precision;
 use crate::request::{Accuracy, DEFAULT_SIZE, Request, check_masking};
-use crate::units::{F0, Ior};
+use crate::units::{F0, Ior, word};
 use serde::{Deserialize, de::DeserializeOwned};
 use std::fmt;
 use std::path::Path;
@@ -57,11 +57,16 @@ pub struct TableArgs {
     /// How values are stored: f16 or f32 (.exr), unorm16 or unorm8 (.png) [default: the first for the format]
     #[arg(long, value_name = "NAME")]
     pub precision: Option<String>,
-    /// Largest absolute error of an integral, 1e-13 to 0.1 [default: 1.5e-5 for f16, 1e-6 for f32 and unorm16,
-    /// 1e-4 for unorm8; more for models of which a device keeps less]
+    /// on certifies every value: rounded correctly, or within the tolerance in f32, the same whoever computes it; off stores
+    /// what a rule gives, checked on a sample [default: on; off where a rule is named]
+    #[arg(long, value_name = "on|off")]
+    pub certify: Option<String>,
+    /// Largest absolute error of an integral, 1e-13 to 0.1, where its values are stored in f32 or not certified [default:
+    /// 1e-6 for f32 and unorm16, 1.5e-5 for f16, 1e-4 for unorm8; more for models of which a device keeps less]
     #[arg(long, value_name = "ERROR", conflicts_with = "rule")]
     pub tolerance: Option<f64>,
-    /// Quadrature rule by name, instead of a tolerance: h56 to h6144 (CPU and Vulkan), l128 to l6144, reference (CPU)
+    /// Store what this quadrature rule gives, not certified: h56 to h6144 (CPU and Vulkan), l288 to l4608, s800, s2304,
+    /// d6144, d10240, reference (CPU)
     #[arg(long, value_name = "NAME")]
     pub rule: Option<String>,
     /// File format: exr or png [default: by the extension of the output]
@@ -204,13 +209,32 @@ impl TableArgs {
     }
 
     fn accuracy(&self, lut: &Lut, precision: Precision) -> Result<Accuracy> {
-        match (&self.rule, self.tolerance) {
-            (Some(_), Some(_)) => {
+        let certify = match self.certify.as_deref() {
+            None => None,
+            Some("on") => Some(true),
+            Some("off") => Some(false),
+            Some(other) => {
+                return Err(Error::bad_input("certify", "on or off", format!("'{other}'"), "name one of these"));
+            }
+        };
+        match (&self.rule, self.tolerance, certify) {
+            (Some(_), Some(_), _) => {
                 Err(Error::bad_input("rule", "a rule or a tolerance", "both", "leave one of them out"))
             }
-            (Some(name), None) => Ok(Accuracy::Rule(Rule::named(name)?)),
-            (None, Some(tolerance)) => Ok(Accuracy::Tolerance(tolerance)),
-            (None, None) => Ok(Accuracy::by_default(lut, precision)),
+            (Some(_), None, Some(true)) => {
+                let cure = "leave out the rule, or set certify to off";
+                Err(Error::bad_input("rule", "none where values are certified", "a rule", cure))
+            }
+            (Some(name), None, _) => Ok(Accuracy::Rule(Rule::named(name)?)),
+            (None, tolerance, Some(false)) => {
+                Ok(tolerance.map_or_else(|| Accuracy::uncertified(lut, precision), Accuracy::Tolerance))
+            }
+            (None, None, _) => Ok(Accuracy::by_default(lut, precision)),
+            (None, Some(tolerance), _) if precision == Precision::F32 => Ok(Accuracy::Certified(tolerance)),
+            (None, Some(_), _) => {
+                let expected = format!("none where values are rounded to {} correctly", word(precision));
+                Err(Error::bad_input("tolerance", expected, "a tolerance", "leave it out, or set certify to off"))
+            }
         }
     }
 }

@@ -11,6 +11,7 @@
 //! beyond. Each piece is smooth, so a Gauss rule converges on each.
 
 use super::ScaleBias;
+use crate::lanes::Real;
 use crate::model::Microfacet;
 use crate::model::fresnel::schlick_weight;
 use crate::quadrature::gauss_legendre::{Node, gauss_legendre, half_gauss};
@@ -76,96 +77,121 @@ impl HSpaceRule {
 }
 
 /// (A, B) at n·v = `mu` in [0, 1] and `alpha` in (0, 1].
-pub fn h_space(lobe: Microfacet, mu: f64, alpha: f64, nodes: &HSpaceNodes) -> ScaleBias {
-    let sv = ((1.0 - mu) * (1.0 + mu)).sqrt();
-    let t1 = mu / (1.0 + sv);
+#[inline(always)]
+pub fn h_space<R: Real>(lobe: Microfacet, mu: R, alpha: R, nodes: &HSpaceNodes) -> ScaleBias<R> {
+    let sv = (mu.complement() * (mu + 1.0)).sqrt();
+    let t1 = mu / (sv + 1.0);
     let width = lobe.ndf.width(alpha);
     let end = lobe.ndf.slope_end(alpha, TAIL_DEPTH);
-    let y1 = (t1 / width).min(end);
-    let y2 = if t1 * width * end > 1.0 { 1.0 / (t1 * width) } else { end };
-    let below = slope_interval(0.0, y1, nodes.power);
+    let y1 = (t1 / width).least(end);
+    let y2 = R::from(1.0).select_below(t1 * width * end, (t1 * width).recip(), end);
+    let below = slope_interval(R::from(0.0), y1, nodes.power);
     let beyond = slope_interval(y1, y2, nodes.power);
-    let mut sum = ScaleBias::default();
-    if mu > 0.0 {
-        for node in &nodes.radial {
-            let slope = slope_at(node.at, below, nodes.power);
-            let ring = ring(mu, sv, width * slope.y);
-            let part = full_circle(lobe, mu, alpha, ring, &nodes.azimuth);
-            sum.add(radial_weight(lobe, alpha, node.weight * slope.dy, slope.y) * ring.secant2, part);
-        }
+    let view = View::new(lobe, mu, alpha);
+    let (mut full, mut cut) = (ScaleBias::zero(), ScaleBias::zero());
+    for node in &nodes.radial {
+        let slope = slope_at(node.at, below, nodes.power);
+        let ring = ring(mu, sv, width * slope.y);
+        let part = full_circle(view, ring, &nodes.azimuth);
+        full.add(radial_weight(lobe, alpha, slope.dy * node.weight, slope.y) * ring.secant2, part);
     }
-    if sv > 0.0 {
-        for node in &nodes.radial_horizon {
-            let slope = slope_at(node.at, beyond, nodes.power);
-            let ring = ring(mu, sv, width * slope.y);
-            let part = cut_circle(lobe, mu, alpha, ring, &nodes.azimuth_horizon);
-            sum.add(radial_weight(lobe, alpha, node.weight * slope.dy, slope.y) * ring.secant2, part);
-        }
+    for node in &nodes.radial_horizon {
+        let slope = slope_at(node.at, beyond, nodes.power);
+        let ring = ring(mu, sv, width * slope.y);
+        let part = cut_circle(view, ring, &nodes.azimuth_horizon);
+        cut.add(radial_weight(lobe, alpha, slope.dy * node.weight, slope.y) * ring.secant2, part);
     }
+    // No circle is full where v lies on the horizon, and none is cut where it stands upright.
+    let mut sum = full.where_positive(mu);
+    sum.add(R::from(1.0), cut.where_positive(sv));
     sum
 }
 
+/// What stays the same for all half vectors.
+#[derive(Clone, Copy, Debug)]
+pub struct View<R> {
+    lobe: Microfacet,
+    mu: R,
+    /// [`Microfacet::masking_smith`] of n·v.
+    smu: R,
+    alpha: R,
+}
+
+impl<R: Real> View<R> {
+    /// The view at n·v = `mu`.
+    #[inline(always)]
+    pub fn new(lobe: Microfacet, mu: R, alpha: R) -> Self {
+        View { lobe, mu, smu: lobe.masking_smith(mu, alpha), alpha }
+    }
+}
+
 /// What a radial node weighs, but for 1/cos² θ_h: y P(y) times its weight in y.
-pub fn radial_weight(lobe: Microfacet, alpha: f64, weight: f64, y: f64) -> f64 {
+#[inline(always)]
+pub fn radial_weight<R: Real>(lobe: Microfacet, alpha: R, weight: R, y: R) -> R {
     weight * (y * lobe.ndf.slope_density(y * y, alpha))
 }
 
 /// The half vectors of one slope: n·l = `m` + `s` cos φ.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ring {
+pub struct Ring<R = f64> {
     /// The mean of n·l.
-    pub m: f64,
+    pub m: R,
     /// Its amplitude.
-    pub s: f64,
+    pub s: R,
     /// 1 + t = 1/cos² θ_h
-    pub secant2: f64,
+    pub secant2: R,
     /// v·h / (x + μ)
-    pub half_secant: f64,
+    pub half_secant: R,
 }
 
 /// The half vectors with tan θ_h = `tau`.
-pub fn ring(mu: f64, sv: f64, tau: f64) -> Ring {
-    let secant2 = 1.0 + tau * tau;
+#[inline(always)]
+pub fn ring<R: Real>(mu: R, sv: R, tau: R) -> Ring<R> {
+    let secant2 = tau * tau + 1.0;
     Ring {
-        m: mu * ((1.0 - tau) * (1.0 + tau)) / secant2,
-        s: 2.0 * sv * tau / secant2,
+        m: mu * (tau.complement() * (tau + 1.0)) / secant2,
+        s: sv * 2.0 * tau / secant2,
         secant2,
-        half_secant: 0.5 * secant2.sqrt(),
+        half_secant: secant2.sqrt() * 0.5,
     }
 }
 
 /// 2 (x+μ) (n·l V) split by Schlick's weight into (A, B).
-pub fn integrand(lobe: Microfacet, x: f64, mu: f64, alpha: f64, half_secant: f64) -> ScaleBias {
+#[inline(always)]
+pub fn integrand<R: Real>(view: View<R>, x: R, half_secant: R) -> ScaleBias<R> {
+    let View { lobe, mu, smu, alpha } = view;
     let f = schlick_weight((x + mu) * half_secant);
-    let g = 2.0 * (x + mu) * lobe.cosine_visibility(x, mu, alpha);
-    ScaleBias { a: g * (1.0 - f), b: g * f }
+    let g = (x + mu) * 2.0 * lobe.cosine_visibility_at(x, mu, smu, alpha);
+    ScaleBias { a: g * f.complement(), b: g * f }
 }
 
 /// The azimuth integral where the whole circle lies above the horizon.
-pub fn full_circle(lobe: Microfacet, mu: f64, alpha: f64, ring: Ring, azimuth: &[Node]) -> ScaleBias {
-    let mut sum = ScaleBias::default();
+#[inline(always)]
+pub fn full_circle<R: Real>(view: View<R>, ring: Ring<R>, azimuth: &[Node]) -> ScaleBias<R> {
+    let mut sum = ScaleBias::zero();
     for node in azimuth {
-        let x = (ring.m + ring.s * node.at).max(0.0);
-        sum.add(node.weight, integrand(lobe, x, mu, alpha, ring.half_secant));
+        let x = (ring.m + ring.s * node.at).most(R::from(0.0));
+        sum.add(R::from(node.weight), integrand(view, x, ring.half_secant));
     }
     sum
 }
 
 /// The same where the horizon cuts it: tan(φ/4) = tm u, and x = 2 s (C - C_m)(C + C_m) with C = cos(φ/2), which has no
 /// cancellation at the horizon.
-pub fn cut_circle(lobe: Microfacet, mu: f64, alpha: f64, ring: Ring, azimuth: &[Node]) -> ScaleBias {
-    let cos_m = (-ring.m / ring.s).clamp(-1.0, 1.0);
-    let half = (0.5 * (1.0 + cos_m)).sqrt(); // cos(φ_m/2)
-    let tm = (0.5 * (1.0 - cos_m)).sqrt() / (1.0 + half);
+#[inline(always)]
+pub fn cut_circle<R: Real>(view: View<R>, ring: Ring<R>, azimuth: &[Node]) -> ScaleBias<R> {
+    let cos_m = (-ring.m / ring.s).most(R::from(-1.0)).least(R::from(1.0));
+    let half = ((cos_m + 1.0) * 0.5).sqrt(); // cos(φ_m/2)
+    let tm = (cos_m.complement() * 0.5).sqrt() / (half + 1.0);
     let tm2 = tm * tm;
-    let scale = 4.0 * ring.s * tm2 / (1.0 + tm2);
-    let mut sum = ScaleBias::default();
+    let scale = ring.s * 4.0 * tm2 / (tm2 + 1.0);
+    let mut sum = ScaleBias::zero();
     for node in azimuth {
         let u2 = node.at * node.at;
-        let r = 1.0 / (1.0 + tm2 * u2);
-        let c = (1.0 - tm2 * u2) * r;
+        let r = (tm2 * u2 + 1.0).recip();
+        let c = (tm2 * u2).complement() * r;
         let x = scale * (1.0 - u2) * r * (c + half);
-        sum.add(node.weight * (8.0 * tm * r), integrand(lobe, x, mu, alpha, ring.half_secant));
+        sum.add(tm * 8.0 * r * node.weight, integrand(view, x, ring.half_secant));
     }
     sum
 }

@@ -9,6 +9,7 @@
 //! B takes the azimuth w by a Gauss rule in tan(w/2) = k sinh(c atanh g), k² = M α²(1+y²)/Q, where D's poles lie.
 
 use super::ScaleBias;
+use crate::lanes::Real;
 use crate::model::fresnel::schlick_weight;
 use crate::model::{Masking, Microfacet, Ndf};
 use crate::quadrature::gauss_legendre::{Node, gauss_legendre, half_gauss};
@@ -16,7 +17,7 @@ use crate::quadrature::slope_map::{Power, slope_at, slope_interval};
 use std::f64::consts::PI;
 
 /// How many nodes, and which maps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LSpaceRule {
     /// Nodes for the slope.
     pub slope: usize,
@@ -55,7 +56,8 @@ impl LSpaceRule {
         let exponent = match self.azimuth {
             ..10 => 2.5,
             10..14 => 3.0,
-            _ => 4.0,
+            14..28 => 4.0,
+            _ => 6.0,
         };
         let azimuth = half_gauss(self.azimuth)
             .into_iter()
@@ -66,7 +68,10 @@ impl LSpaceRule {
                 AzimuthNode { y2: sinh * sinh, c: 1.0 / (cosh * cosh), weight }
             })
             .collect();
-        LSpaceNodes { slope: gauss_legendre(self.slope), azimuth, power: self.power }
+        // Crowded at the horizon, n·l = 0, where the masking term has branch points at n·l = ±iα/√(1-α²).
+        let crowd = |Node { at: v, weight }| Node { at: v * v, weight: weight * 2.0 * v };
+        let slope = gauss_legendre(self.slope).into_iter().map(crowd).collect();
+        LSpaceNodes { slope, azimuth, power: self.power }
     }
 }
 
@@ -77,63 +82,76 @@ pub fn l_space_applies(lobe: Microfacet) -> bool {
 }
 
 /// (A, B) of a GGX lobe at n·v = `mu` in [0, 1] and `alpha` in (0, 1].
-pub fn l_space(lobe: Microfacet, mu: f64, alpha: f64, nodes: &LSpaceNodes) -> ScaleBias {
-    let sv = ((1.0 - mu) * (1.0 + mu)).sqrt();
-    let (a2, b2) = (alpha * alpha, (1.0 - alpha) * (1.0 + alpha));
-    let interval = slope_interval(-mu / ((1.0 + sv) * alpha), sv / ((1.0 + mu) * alpha), nodes.power);
-    let layer = (lobe.masking == Masking::HeightCorrelated && mu < 0.5 * alpha).then(|| Layer::new(mu, sv, alpha));
-    let (mut e, mut b) = layer.as_ref().map_or((0.0, 0.0), |l| (l.e, l.e * l.bias));
+#[inline(always)]
+pub fn l_space<R: Real>(lobe: Microfacet, mu: R, alpha: R, nodes: &LSpaceNodes) -> ScaleBias<R> {
+    let sv = (mu.complement() * (mu + 1.0)).sqrt();
+    let (a2, b2) = (alpha * alpha, alpha.complement() * (alpha + 1.0));
+    let smu = lobe.masking_smith(mu, alpha);
+    let interval = slope_interval(-mu / ((sv + 1.0) * alpha), sv / ((mu + 1.0) * alpha), nodes.power);
+    let layer = Layer::of(lobe, mu, alpha);
+    let (mut e, mut b) = (layer.e, R::from(0.0));
     for node in &nodes.slope {
         let mapped = slope_at(node.at, interval, nodes.power);
         let y = mapped.y;
         let slope = alpha * y;
-        let f = 1.0 + slope * slope;
-        let x = (mu + 2.0 * slope / f * (sv - slope * mu)).clamp(0.0, 1.0);
-        let sl = (sv - 2.0 * slope / f * (mu + slope * sv)).clamp(0.0, 1.0);
-        let (sum, y1) = (mu + x, 1.0 + y * y);
+        let f = slope * slope + 1.0;
+        let turn = slope * 2.0 / f;
+        let (zero, one) = (R::from(0.0), R::from(1.0));
+        let x = (mu + turn * (sv - slope * mu)).most(zero).least(one);
+        let sl = (sv - turn * (mu + slope * sv)).most(zero).least(one);
+        let (sum, y1) = (mu + x, y * y + 1.0);
         let m = sum * sum;
         let q = (sv + sl) * (sv + sl) + a2 * m;
         let s = (y1 * q).sqrt();
-        let mut j = alpha * a2 + 2.0 * a2 * b2 * sum / s + 0.5 * b2 * b2 * sum * (m * a2 * y1 + q) / (s * s * s);
+        let j = alpha * a2 + a2 * b2 * sum * 2.0 / s + b2 * b2 * sum * 0.5 * (m * a2 * y1 + q) / (s * s * s);
         let k2 = m * a2 * y1 / q;
-        let mut j_b = 0.0;
+        // (v·h)² = c0 + c1 Y²/t, t = 1 + k² Y²
+        let (c0, c1, peak) = (m * f * 0.25, sv * sl * k2, b2 / y1);
+        let mut j_b = zero;
         for azimuth in &nodes.azimuth {
-            let t = 1.0 + k2 * azimuth.y2;
-            let vh = (0.25 * m * f + sv * sl * k2 * azimuth.y2 / t).sqrt();
-            let d = a2 + b2 / y1 * azimuth.c * t;
-            j_b += azimuth.weight * schlick_weight(vh) * d * d / t;
+            let t = k2 * azimuth.y2 + 1.0;
+            let r = t.recip();
+            let vh = (c0 + c1 * azimuth.y2 * r).sqrt();
+            let d = a2 + peak * azimuth.c * t;
+            j_b = j_b + schlick_weight(vh) * d * d * r * azimuth.weight;
         }
-        j_b *= sum * y1 / s;
-        if let Some(layer) = &layer {
-            j -= alpha * a2;
-            j_b -= alpha * a2 * layer.bias;
-        }
-        let weight = node.weight * mapped.dy * 4.0 * sl / f * lobe.cosine_visibility(x, mu, alpha);
-        e += weight * j;
-        b += weight * j_b;
+        let j_b = j_b * (sum * y1 / s);
+        let weight = mapped.dy * node.weight * 4.0 * sl / f * lobe.cosine_visibility_at(x, mu, smu, alpha);
+        e = e + weight * (j - layer.share);
+        b = b + weight * j_b;
     }
     ScaleBias { a: e - b, b }
 }
 
 /// What the height-correlated term does within x ~ μ of the horizon, integrated in closed form and subtracted from the
-/// integrand: there n·l V = x/(2(α x + α μ + …)) has a layer that no fixed rule resolves as μ → 0.
-struct Layer {
+/// integrand of A + B: there n·l V = x/(2(α x + α μ + …)) has a layer that no fixed rule resolves as μ → 0. Where μ is no
+/// smaller than α/2 there is none, and the subtraction would cost digits. B, whose azimuth is not integrated in closed form,
+/// leaves it to the nodes that crowd there.
+struct Layer<R> {
     /// 2 α² ∫_0^1 n·l V dx, the layer's share of A + B.
-    e: f64,
-    /// The mean of Schlick's weight over the azimuth at x = 0, for its share of B.
-    bias: f64,
+    e: R,
+    /// α³, the layer's share of J.
+    share: R,
 }
 
-impl Layer {
-    fn new(mu: f64, sv: f64, alpha: f64) -> Self {
+impl<R: Real> Layer<R> {
+    #[inline(always)]
+    fn of(lobe: Microfacet, mu: R, alpha: R) -> Self {
+        let zero = R::from(0.0);
+        if lobe.masking != Masking::HeightCorrelated {
+            return Layer { e: zero, share: zero };
+        }
+        let grazing = |value| mu.select_below(alpha * 0.5, value, zero);
+        let e = alpha.zip(mu, |alpha, mu| 0.5 * alpha * Self::mass(mu, alpha));
+        Layer { e: grazing(e), share: grazing(alpha * alpha * alpha) }
+    }
+
+    /// 4 α ∫_0^1 n·l V dx
+    fn mass(mu: f64, alpha: f64) -> f64 {
         let (a2, b2) = (alpha * alpha, (1.0 - alpha) * (1.0 + alpha));
         let a = (a2 + b2 * mu * mu).sqrt();
         let log = if mu > 0.0 { mu * libm::log((a + mu) * (alpha + a) / (mu * (a2 + a + mu * b2))) } else { 0.0 };
-        let w = 2.0 * (1.0 + 2.0 * mu * mu * b2 / a2) * ((a + mu) / alpha - mu)
-            - 2.0 * a / alpha * (log + 2.0 * mu * ((a + mu * b2) / a2 - a / alpha));
-        let (s2, s3) = (sv * sv, sv * sv * sv);
-        let bias = 1.0 - 10.0 * sv / PI + 5.0 * s2 - 40.0 * s3 / (3.0 * PI) + 15.0 * s2 * s2 / 8.0
-            - 16.0 * s2 * s3 / (15.0 * PI);
-        Layer { e: 0.5 * alpha * w, bias }
+        2.0 * (1.0 + 2.0 * mu * mu * b2 / a2) * ((a + mu) / alpha - mu)
+            - 2.0 * a / alpha * (log + 2.0 * mu * ((a + mu * b2) / a2 - a / alpha))
     }
 }

@@ -1,4 +1,5 @@
-//! The reference: the integral over directions of light, by double exponential quadrature in both variables.
+//! The reference: the integral over directions of light, by double exponential quadrature in both variables. With fewer nodes it
+//! is the finest of the cheap rules, for any lobe.
 //!
 //! In the plane of v and n, T = tan((θ_v - θ_l)/2) is the slope of the half vector; w is the azimuth of l from the mirror
 //! direction, z = tan(w/2). Then tan² θ_h = t = T² + 4 sin θ_v sin θ_l/(μ+x)² sin²(w/2), and
@@ -10,6 +11,7 @@
 
 use super::ScaleBias;
 use super::h_space::TAIL_DEPTH;
+use crate::lanes::Real;
 use crate::model::Microfacet;
 use crate::model::fresnel::schlick_weight;
 use crate::quadrature::double_exponential::{DeNode, half_line, half_line_with_cusp, tanh_sinh};
@@ -32,6 +34,11 @@ pub struct ReferenceNodes {
 }
 
 impl ReferenceRule {
+    /// Evaluations of the integrand for a texel, of a lobe without kinks.
+    pub fn evaluations(&self) -> usize {
+        2 * self.outer * self.inner
+    }
+
     /// The rule's nodes.
     pub fn nodes(&self) -> ReferenceNodes {
         // z' = 1e20 at the end: what lies beyond is below 1e-17 of the peak for every k.
@@ -45,74 +52,96 @@ impl ReferenceRule {
 }
 
 /// (A, B) at n·v = `mu` in [0, 1] and `alpha` in (0, 1].
-pub fn reference(lobe: Microfacet, mu: f64, alpha: f64, nodes: &ReferenceNodes) -> ScaleBias {
-    let sv = ((1.0 - mu) * (1.0 + mu)).sqrt();
-    let view = View { lobe, mu, sv, alpha, width: lobe.ndf.width(alpha), low: mu / (1.0 + sv), high: sv / (1.0 + mu) };
+#[inline(always)]
+pub fn reference<R: Real>(lobe: Microfacet, mu: R, alpha: R, nodes: &ReferenceNodes) -> ScaleBias<R> {
+    let zero = R::from(0.0);
+    let sv = (mu.complement() * (mu + 1.0)).sqrt();
+    let (low, high) = (mu / (sv + 1.0), sv / (mu + 1.0));
+    let width = lobe.ndf.width(alpha);
+    let view = View { lobe, mu, smu: lobe.masking_smith(mu, alpha), sv, alpha, width, low, high };
     let inner = if lobe.ndf.smooth_at_normal() { &nodes.inner } else { &nodes.inner_with_cusp };
     // Beyond the lobe's end there is nothing to integrate.
-    let end = view.width * lobe.ndf.slope_end(alpha, TAIL_DEPTH);
-    let mut breaks = vec![-view.low.min(end), 0.0, view.high.min(end)];
-    breaks.extend(
-        lobe.break_at(alpha).map(|x| (x - mu) / (sv + ((1.0 - x) * (1.0 + x)).sqrt())).filter(|t| t.abs() < end),
-    );
-    breaks.sort_by(f64::total_cmp);
-    let mut sum = ScaleBias::default();
-    for ends in breaks.windows(2) {
-        let (start, end) = (ends[0], ends[1]);
-        let (r0, r1) = (libm::asinh(start / view.width), libm::asinh(end / view.width));
-        for node in &nodes.outer {
-            // The nearer end decides how r is written, so that the distance to it in T has no cancellation.
-            let (from_start, to_end) = ((r1 - r0) * node.from_start, (r1 - r0) * node.to_end);
-            let r = if from_start < to_end { r0 + from_start } else { r1 - to_end };
-            let gap = |d: f64, middle: f64| 2.0 * view.width * libm::cosh(middle) * libm::sinh(0.5 * d);
-            let from_low = (start + view.low) + gap(from_start, r0 + 0.5 * from_start);
-            let to_high = (view.high - end) + gap(to_end, r1 - 0.5 * to_end);
-            let value = view.plane(view.width * libm::sinh(r), from_low, to_high, inner);
-            sum.add(node.weight * (r1 - r0) * view.width * libm::cosh(r), value);
+    let end = width * lobe.ndf.slope_end(alpha, TAIL_DEPTH);
+    let (first, last) = (-low.least(end), high.least(end));
+    match lobe.break_at(alpha) {
+        None => {
+            let mut sum = view.piece(first, zero, &nodes.outer, inner);
+            sum.add(R::from(1.0), view.piece(zero, last, &nodes.outer, inner));
+            sum
+        }
+        Some(x) => {
+            let middle = ((x - mu) / (sv + (x.complement() * (x + 1.0)).sqrt())).most(first).least(last);
+            let mut sum = ScaleBias::zero();
+            // One of the two inner ends is 0, the other the break.
+            for ends in [first, middle.least(zero), middle.most(zero), last].windows(2) {
+                sum.add(R::from(1.0), view.piece(ends[0], ends[1], &nodes.outer, inner));
+            }
+            sum
         }
     }
-    sum
 }
 
-struct View {
+struct View<R> {
     lobe: Microfacet,
-    mu: f64,
-    sv: f64,
-    alpha: f64,
+    mu: R,
+    smu: R,
+    sv: R,
+    alpha: R,
     /// The unit of slopes.
-    width: f64,
+    width: R,
     /// T = -low at n·l = 0.
-    low: f64,
+    low: R,
     /// T = high at n·l = 1.
-    high: f64,
+    high: R,
 }
 
-impl View {
-    /// dE/dT at the slope T, whose distances from either end are given.
-    fn plane(&self, slope: f64, from_low: f64, to_high: f64, inner: &[(f64, f64)]) -> ScaleBias {
-        let f = 1.0 + slope * slope;
-        // n·l and sin θ_l as multiples of the distances to their own zeros.
-        let x = from_low * (2.0 - self.mu * from_low) / f;
-        let sl = to_high * (2.0 - self.sv * to_high) / f;
-        if x <= 0.0 || sl <= 0.0 {
-            return ScaleBias::default();
+impl<R: Real> View<R> {
+    /// The share of E of the slopes from `start` to `end`; nothing where they are the same.
+    #[inline(always)]
+    fn piece(&self, start: R, end: R, outer: &[DeNode], inner: &[(f64, f64)]) -> ScaleBias<R> {
+        let asinh = |t: R| t.zip(self.width, |t, width| libm::asinh(t / width));
+        let (r0, r1) = (asinh(start), asinh(end));
+        let length = r1 - r0;
+        let mut sum = ScaleBias::zero();
+        for node in outer {
+            // The nearer end decides how r is written, so that the distance to it in T has no cancellation.
+            let (from_start, to_end) = (length * node.from_start, length * node.to_end);
+            let r = from_start.select_below(to_end, r0 + from_start, r1 - to_end);
+            let gap = |d: R, middle: R| self.width * 2.0 * middle.zip(d, |m, d| libm::cosh(m) * libm::sinh(0.5 * d));
+            let from_low = (start + self.low) + gap(from_start, r0 + from_start * 0.5);
+            let to_high = (self.high - end) + gap(to_end, r1 - to_end * 0.5);
+            let value = self.plane(self.width * r.zip(r, |r, _| libm::sinh(r)), from_low, to_high, inner);
+            sum.add(length * node.weight * self.width * r.zip(r, |r, _| libm::cosh(r)), value);
         }
+        sum.where_positive(length)
+    }
+
+    /// dE/dT at the slope T, whose distances from either end are given.
+    #[inline(always)]
+    fn plane(&self, slope: R, from_low: R, to_high: R, inner: &[(f64, f64)]) -> ScaleBias<R> {
+        let f = slope * slope + 1.0;
+        // n·l and sin θ_l as multiples of the distances to their own zeros.
+        let x = from_low * (-(self.mu * from_low) + 2.0) / f;
+        let sl = to_high * (-(self.sv * to_high) + 2.0) / f;
         let m = (self.mu + x) * (self.mu + x);
         let ss = self.sv * sl;
-        let tau2 = 4.0 * ss / m;
+        let tau2 = ss * 4.0 / m;
         let w2 = self.width * self.width;
         let t0 = slope * slope;
-        let k = ((w2 + t0) / (w2 + t0 + tau2)).sqrt();
-        let mut sum = ScaleBias::default();
+        let k2 = (w2 + t0) / (w2 + t0 + tau2);
+        let (k, c0) = (k2.sqrt(), m * f * 0.25);
+        let mut sum = ScaleBias::zero();
         for &(z, weight) in inner {
-            let z2 = (k * z) * (k * z);
-            let sin2 = z2 / (1.0 + z2);
+            let z2 = k2 * (z * z);
+            let c = (z2 + 1.0).recip();
+            let sin2 = z2 * c;
             let t = t0 + tau2 * sin2;
-            let d = self.lobe.ndf.slope_density(t / w2, self.alpha) * (1.0 + t) * (1.0 + t) / w2;
-            let w = schlick_weight((0.25 * m * f + ss * sin2).sqrt());
-            sum.add(weight * k * d / (1.0 + z2), ScaleBias { a: 1.0 - w, b: w });
+            let d = self.lobe.ndf.slope_density(t / w2, self.alpha) * (t + 1.0) * (t + 1.0);
+            let w = schlick_weight((c0 + ss * sin2).sqrt());
+            sum.add(d * c * weight, ScaleBias { a: w.complement(), b: w });
         }
-        let outer = 8.0 * sl / f * self.lobe.cosine_visibility(x, self.mu, self.alpha);
-        ScaleBias { a: outer * sum.a, b: outer * sum.b }
+        let visible = self.lobe.cosine_visibility_at(x, self.mu, self.smu, self.alpha);
+        let outer = k * 8.0 * sl / (f * w2) * visible;
+        ScaleBias { a: outer * sum.a, b: outer * sum.b }.where_positive(x).where_positive(sl)
     }
 }

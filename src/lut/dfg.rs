@@ -42,12 +42,12 @@ impl DfgChannels {
         }
     }
 
-    /// Appends their values.
-    pub fn push_values(self, integral: ScaleBias, values: &mut Vec<f64>) {
+    /// Their values, and zeros for the channels that there are not.
+    pub fn values(self, integral: ScaleBias) -> [f64; 3] {
         match self {
-            DfgChannels::Ab => values.extend([integral.a, integral.b]),
-            DfgChannels::Be => values.extend([integral.b, integral.e()]),
-            DfgChannels::E => values.push(integral.e()),
+            DfgChannels::Ab => [integral.a, integral.b, 0.0],
+            DfgChannels::Be => [integral.b, integral.e(), 0.0],
+            DfgChannels::E => [integral.e(), 0.0, 0.0],
         }
     }
 }

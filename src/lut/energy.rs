@@ -66,17 +66,18 @@ impl Energy {
         Ok(Energy { lobe, f0, channels })
     }
 
-    /// Appends the values of a texel: at `mu` with these integrals, on a row or column with these averages.
-    pub fn push_values(&self, mu: f64, integral: ScaleBias, average: ScaleBias, values: &mut Vec<f64>) {
+    /// The values of a texel at `mu` with these integrals, on a row or column with these averages; zeros for the channels that
+    /// there are not.
+    pub fn values(&self, mu: f64, integral: ScaleBias, average: ScaleBias) -> [f64; 3] {
         match self.channels {
-            EnergyChannels::Average => values.extend([average.a, average.b, average.e()]),
-            EnergyChannels::KullaConty => values.extend([integral.e(), average.e()]),
-            EnergyChannels::Turquin => values.push((1.0 - integral.e()) / integral.e()),
+            EnergyChannels::Average => [average.a, average.b, average.e()],
+            EnergyChannels::KullaConty => [integral.e(), average.e(), 0.0],
+            EnergyChannels::Turquin => [(1.0 - integral.e()) / integral.e(), 0.0, 0.0],
             EnergyChannels::Split => {
                 let f0 = self.f0.get();
                 let left = 1.0 - integral.at_f0(f0);
                 let naive = 1.0 - (f0 + (1.0 - f0) * schlick_weight(mu));
-                values.extend([naive, left, left / (1.0 - average.at_f0(f0)).sqrt()]);
+                [naive, left, left / (1.0 - average.at_f0(f0)).sqrt()]
             }
         }
     }

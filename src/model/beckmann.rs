@@ -2,12 +2,14 @@
 //!
 //! Beckmann and Spizzichino 1963; Walter et al. 2007, equation 25; Heitz 2014, section 5.
 
+use crate::lanes::Real;
 use crate::special::{exponential, ierfc};
 use std::f64::consts::FRAC_1_PI;
 
 /// α² P22 at the squared scaled slope y²: exp(-y²)/π (Heitz 2014, section 5).
-pub fn beckmann_slope_density(y2: f64) -> f64 {
-    FRAC_1_PI * exponential(-y2)
+#[inline(always)]
+pub fn beckmann_slope_density<R: Real>(y2: R) -> R {
+    exponential(-y2) * FRAC_1_PI
 }
 
 /// c (1 + 2Λ(c)) with the exact Λ(a) = (erf(a) - 1)/2 + exp(-a²)/(2a√π), a = c/(α sin θ) (Heitz 2014, section 5).

@@ -2,15 +2,17 @@
 //!
 //! Blinn 1977; the normalisation: Walter et al. 2007, equation 30; Hoffman, "Physically Based Shading Models", 2013.
 
+use crate::lanes::Real;
 use crate::special::{exponential, log1p_ratio};
 use std::f64::consts::FRAC_1_PI;
 
 /// α² P22 at the squared scaled slope y²: with t = α² y², (1+t)^-(n+4)/2 / π and (n+4)/2 = 1/α² + 1.
 ///
 /// (n·h)^n as a power of a cosine near 1 loses every digit at large n; -y² ln(1+t)/t - ln(1+t) as the exponent does not.
-pub fn blinn_phong_slope_density(y2: f64, alpha: f64) -> f64 {
+#[inline(always)]
+pub fn blinn_phong_slope_density<R: Real>(y2: R, alpha: R) -> R {
     let t = alpha * alpha * y2;
-    FRAC_1_PI * exponential(-(y2 + t) * log1p_ratio(t))
+    exponential(-(y2 + t) * log1p_ratio(t)) * FRAC_1_PI
 }
 
 /// α of the exponent n: α² = 2/(n+2).

@@ -2,20 +2,23 @@
 //!
 //! Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", 2017; α = r² as in Filament and glTF.
 
+use crate::lanes::Real;
 use crate::special::{exponential, log1p_ratio, logarithm};
 use std::f64::consts::FRAC_2_PI;
 
 /// The unit of slopes, 1/(2√α): where a lobe of small α has its ring.
-pub fn charlie_width(alpha: f64) -> f64 {
-    0.5 / alpha.sqrt()
+#[inline(always)]
+pub fn charlie_width<R: Real>(alpha: R) -> R {
+    alpha.sqrt().recip() * 0.5
 }
 
 /// P22/(4α) at the squared slope y² in units of [`charlie_width`]: with t = y²/(4α), D cos⁴ θ_h is
 /// (2/π)(1 + 2α) exp(-(2/y²) ln(1+1/t) t) / (4α + y²)².
-pub fn charlie_slope_density(y2: f64, alpha: f64) -> f64 {
-    let (y2, a4) = (y2.max(1e-30), 4.0 * alpha);
+#[inline(always)]
+pub fn charlie_slope_density<R: Real>(y2: R, alpha: R) -> R {
+    let (y2, a4) = (y2.most(R::from(1e-30)), alpha * 4.0);
     let scale = a4 + y2;
-    FRAC_2_PI * (1.0 + 2.0 * alpha) * exponential(-2.0 / y2 * log1p_ratio(a4 / y2)) / (scale * scale)
+    (alpha * 2.0 + 1.0) * FRAC_2_PI * exponential(y2.recip() * -2.0 * log1p_ratio(a4 / y2)) / (scale * scale)
 }
 
 /// c (1 + 2Λ(c)) with the Λ that Estevez and Kulla fitted: e^L(c) for c < 1/2, else e^(2 L(1/2) - L(1-c)). With c the term falls

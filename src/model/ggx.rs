@@ -3,6 +3,7 @@
 //! Walter, Marschner, Li and Torrance, "Microfacet Models for Refraction through Rough Surfaces", 2007;
 //! Heitz, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", 2014.
 
+use crate::lanes::Real;
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// D(n·h) as a function of t = tan²(θ_h): α²/π ((1+t)/(α²+t))² (Walter 2007, equation 33).
@@ -15,15 +16,17 @@ pub fn ggx_d(t: f64, alpha: f64) -> f64 {
 }
 
 /// α² P22 at the squared scaled slope y² = (tan(θ_h)/α)²: 1 / (π (1+y²)²) (Heitz 2014, section 5).
-pub fn ggx_slope_density(y2: f64) -> f64 {
-    let r = 1.0 / (1.0 + y2);
-    FRAC_1_PI * r * r
+#[inline(always)]
+pub fn ggx_slope_density<R: Real>(y2: R) -> R {
+    let r = (y2 + 1.0).recip();
+    r * FRAC_1_PI * r
 }
 
 /// c (1 + 2Λ(c)) = √(α² + (1-α²) c²), with Smith's Λ of GGX (Heitz 2014, equation 72).
 ///
 /// In units of α: c² alone would underflow in f32 where both are tiny.
-pub fn ggx_smith(c: f64, alpha: f64) -> f64 {
-    let q = c * (1.0 / alpha);
-    alpha * (1.0 + (1.0 - alpha) * (1.0 + alpha) * (q * q)).sqrt()
+#[inline(always)]
+pub fn ggx_smith<R: Real>(c: R, alpha: R) -> R {
+    let q = c * alpha.recip();
+    alpha * (alpha.complement() * (alpha + 1.0) * (q * q) + 1.0).sqrt()
 }

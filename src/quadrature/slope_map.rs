@@ -3,6 +3,8 @@
 //!
 //! With ρ = (1+w)/(1-w): y = (ρ^p - ρ^-p)/2 and dy/dw = p (ρ^p + ρ^-p) / ((1-w)(1+w)).
 
+use crate::lanes::Real;
+
 /// The exponent p of the map: 2 for rules with few nodes, 4 for many (wider strip of analyticity, more nodes needed).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Power {
@@ -14,51 +16,57 @@ pub enum Power {
 
 /// An interval of slopes as seen through the map. It lies on one side of 0 or contains 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SlopeInterval {
+pub struct SlopeInterval<R = f64> {
     /// w at the lower end.
-    pub w0: f64,
+    pub w0: R,
     /// 1 + w at the lower end.
-    pub plus0: f64,
+    pub plus0: R,
     /// 1 - w at the upper end.
-    pub minus1: f64,
+    pub minus1: R,
     /// The length in w.
-    pub width: f64,
+    pub width: R,
 }
 
 /// A slope and the Jacobian that carries a weight on [0, 1] to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MappedSlope {
+pub struct MappedSlope<R = f64> {
     /// The scaled slope.
-    pub y: f64,
+    pub y: R,
     /// dy/du, u being the position on [0, 1] within the interval.
-    pub dy: f64,
+    pub dy: R,
 }
 
 /// 1 - w at the slope `y` ≥ 0, with full relative precision where w is near 1.
-pub fn slope_complement(y: f64, power: Power) -> f64 {
-    let e = (y + (1.0 + y * y).sqrt()).sqrt();
-    2.0 / (1.0 + if power == Power::Four { e.sqrt() } else { e })
+#[inline(always)]
+pub fn slope_complement<R: Real>(y: R, power: Power) -> R {
+    let e = (y + (y * y + 1.0).sqrt()).sqrt();
+    (if power == Power::Four { e.sqrt() } else { e } + 1.0).recip() * 2.0
 }
 
 /// The interval from `y0` to `y1`, y0 ≤ y1 and 0 ≤ y1.
-pub fn slope_interval(y0: f64, y1: f64, power: Power) -> SlopeInterval {
-    let (c0, c1) = (slope_complement(y0.abs(), power), slope_complement(y1, power));
-    if y0 < 0.0 {
-        SlopeInterval { w0: c0 - 1.0, plus0: c0, minus1: c1, width: 2.0 - c0 - c1 }
-    } else {
-        SlopeInterval { w0: 1.0 - c0, plus0: 2.0 - c0, minus1: c1, width: c0 - c1 }
+#[inline(always)]
+pub fn slope_interval<R: Real>(y0: R, y1: R, power: Power) -> SlopeInterval<R> {
+    let (c0, c1) = (slope_complement(y0.magnitude(), power), slope_complement(y1, power));
+    let two = R::from(2.0);
+    let below = |yes, no| y0.select_below(R::from(0.0), yes, no);
+    SlopeInterval {
+        w0: below(c0 - 1.0, c0.complement()),
+        plus0: below(c0, two - c0),
+        minus1: c1,
+        width: below(two - c0 - c1, c0 - c1),
     }
 }
 
 /// The slope at position `u` in [0, 1] of an interval.
-pub fn slope_at(u: f64, interval: SlopeInterval, power: Power) -> MappedSlope {
+#[inline(always)]
+pub fn slope_at<R: Real>(u: f64, interval: SlopeInterval<R>, power: Power) -> MappedSlope<R> {
     let w = interval.w0 + interval.width * u;
     let s = (interval.plus0 + interval.width * u) * (interval.minus1 + interval.width * (1.0 - u));
-    let (w2, r) = (w * w, 1.0 / (s * s));
-    let sinh = 4.0 * w * (1.0 + w2) * r;
-    let cosh = (1.0 + w2 * (6.0 + w2)) * r;
+    let (w2, r) = (w * w, (s * s).recip());
+    let sinh = w * 4.0 * (w2 + 1.0) * r;
+    let cosh = (w2 * (w2 + 6.0) + 1.0) * r;
     match power {
         Power::Two => MappedSlope { y: sinh, dy: interval.width * 4.0 * cosh / s },
-        Power::Four => MappedSlope { y: 2.0 * sinh * cosh, dy: interval.width * 8.0 * (1.0 + 2.0 * sinh * sinh) / s },
+        Power::Four => MappedSlope { y: sinh * 2.0 * cosh, dy: interval.width * 8.0 * (sinh * 2.0 * sinh + 1.0) / s },
     }
 }

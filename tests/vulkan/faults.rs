@@ -6,7 +6,7 @@ use libtest_mimic::{Failed, Trial};
 use splitsum::axis::{Axis, AxisSpec, Parameter};
 use splitsum::backend::cpu;
 use splitsum::backend::vulkan::gpu::{Gpu, GpuOptions};
-use splitsum::certify::{cross_check, measure};
+use splitsum::certify::deviation::{cross_check, measure};
 use splitsum::error::{Error, ExitCode};
 use splitsum::integrate::ScaleBias;
 use splitsum::integrate::rule::{Rule, f32_arithmetic};
@@ -79,7 +79,8 @@ fn a_driver_that_computes_nothing() -> Trial {
         let file = folder.path().join("dfg.exr");
         std::fs::write(&file, "the old file")?;
         let mut command = Command::new(env!("CARGO_BIN_EXE_splitsum"));
-        let output = command.env("VK_DRIVER_FILES", &icd).args(["bake", "-o"]).arg(&file).output()?;
+        let output =
+            command.env("VK_DRIVER_FILES", &icd).args(["bake", "--backend", "vulkan", "-o"]).arg(&file).output()?;
         assert_eq!(output.status.code(), Some(ExitCode::CheckFailed as i32), "{output:?}");
         assert_eq!(std::fs::read_to_string(&file)?, "the old file");
         assert_eq!(std::fs::read_dir(folder.path())?.count(), 1);

@@ -2,6 +2,7 @@
 //! reason; where SPLITSUM_REQUIRE_VULKAN is set, that is a failure instead.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
 
+mod certified;
 #[path = "../common/mod.rs"]
 mod common;
 mod faults;
@@ -27,7 +28,7 @@ fn main() {
     let mut arguments = Arguments::from_args();
     // The tests use every core themselves, and loaders are not at their best when many threads open devices.
     arguments.test_threads = Some(1);
-    let tests: Vec<DeviceTest> = twins::TESTS.iter().chain(tables::TESTS).chain(previews::TESTS).copied().collect();
+    let tests: Vec<DeviceTest> = [twins::TESTS, tables::TESTS, certified::TESTS, previews::TESTS].concat();
     let mut trials: Vec<Trial> = match list_devices() {
         Ok(devices) if !devices.is_empty() => {
             devices.iter().flat_map(|device| tests.iter().map(|&test| on(device, test))).collect()

@@ -9,7 +9,7 @@ use splitsum::backend::vulkan::bake::bake;
 use splitsum::backend::vulkan::devices::list_devices;
 use splitsum::backend::vulkan::gpu::{Gpu, GpuOptions};
 use splitsum::backend::{Backend, BackendChoice, cpu};
-use splitsum::certify::cross_check;
+use splitsum::certify::deviation::cross_check;
 use splitsum::integrate::ScaleBias;
 use splitsum::integrate::h_space::HSpaceRule;
 use splitsum::integrate::rule::{Method, RULES, Rule, f32_arithmetic};
@@ -50,7 +50,7 @@ fn on_device(rule: &Rule) -> Option<(Rule, HSpaceRule)> {
 
 fn close(gpu: &Gpu, lobe: Microfacet, grid: &Grid) -> Result<(), Failed> {
     let (rule, nodes) = finest();
-    let device = bake(gpu, lobe, grid, &nodes, &|_| ())?;
+    let device = bake(gpu, lobe, grid, &nodes, &|_| ())?.integrals;
     let truth = cpu::bake(lobe, grid, &rule, &|_| ());
     for (i, (got, truth)) in device.iter().zip(&truth).enumerate() {
         // 8e-7 is what correctly rounded division and root give; more below a roughness of 1e-3 where the lobe says so.
@@ -83,7 +83,7 @@ fn the_closed_domain_has_no_holes(gpu: &Gpu) -> Result<(), Failed> {
 fn every_rule_runs(gpu: &Gpu) -> Result<(), Failed> {
     let grid = grid("nov,sqrt", "roughness,sqrt", 40, 24);
     for (rule, nodes) in RULES.iter().filter_map(on_device) {
-        let table = bake(gpu, ggx(Masking::HeightCorrelated), &grid, &nodes, &|_| ())?;
+        let table = bake(gpu, ggx(Masking::HeightCorrelated), &grid, &nodes, &|_| ())?.integrals;
         cross_check(ggx(Masking::HeightCorrelated), &grid, &rule, &table)?;
     }
     Ok(())
@@ -114,7 +114,7 @@ fn tile_sizes_do_not_change_a_bit(gpu: &Gpu) -> Result<(), Failed> {
     let nodes = Rule::named("h288").ok().as_ref().and_then(on_device).unwrap().1;
     let baked = |tile| -> Result<Vec<ScaleBias>, Failed> {
         let options = GpuOptions { device: Some(gpu.info().uuid.clone()), tile, validate: false };
-        Ok(bake(&Gpu::open(&options)?, ggx(Masking::HeightCorrelated), &grid, &nodes, &|_| ())?)
+        Ok(bake(&Gpu::open(&options)?, ggx(Masking::HeightCorrelated), &grid, &nodes, &|_| ())?.integrals)
     };
     let adapted = baked(None)?;
     for tile in [8, 64, 100, 2050] {
@@ -133,7 +133,7 @@ fn a_table_beyond_the_limit_bakes(gpu: &Gpu) -> Result<(), Failed> {
     // 16.8 million texels of 8 bytes: more than the 128 MiB that lavapipe and many devices allow for a storage buffer.
     let grid = grid("nov", "roughness", 4100, 4096);
     let (rule, nodes) = RULES.iter().find_map(on_device).unwrap();
-    let table = bake(gpu, ggx(Masking::HeightCorrelated), &grid, &nodes, &|_| ())?;
+    let table = bake(gpu, ggx(Masking::HeightCorrelated), &grid, &nodes, &|_| ())?.integrals;
     assert_eq!(table.len(), grid.len());
     cross_check(ggx(Masking::HeightCorrelated), &grid, &rule, &table)?;
     Ok(())
@@ -155,7 +155,7 @@ pub fn validated() -> Vec<Trial> {
             Ok(gpu) => Trial::test(name, move || {
                 let grid = grid("nov", "roughness", 32, 16);
                 let (rule, nodes) = finest();
-                let table = bake(&gpu, ggx(Masking::HeightCorrelated), &grid, &nodes, &|_| ())?;
+                let table = bake(&gpu, ggx(Masking::HeightCorrelated), &grid, &nodes, &|_| ())?.integrals;
                 cross_check(ggx(Masking::HeightCorrelated), &grid, &rule, &table)?;
                 assert_eq!(gpu.validation_messages(), Vec::<String>::new());
                 Ok(())

@@ -10,7 +10,7 @@ use splitsum::backend::vulkan::gpu::Gpu;
 use splitsum::backend::vulkan::pipeline::Pipeline;
 use splitsum::integrate::ScaleBias;
 use splitsum::integrate::h_space::{
-    HSpaceNodes, HSpaceRule, cut_circle, full_circle, h_space, integrand, radial_weight, ring,
+    HSpaceNodes, HSpaceRule, View, cut_circle, full_circle, h_space, integrand, radial_weight, ring,
 };
 use splitsum::model::{Masking, Microfacet, Ndf};
 use splitsum::quadrature::slope_map::{MappedSlope, Power, slope_at, slope_complement, slope_interval};
@@ -142,7 +142,7 @@ fn twins(lobe: Microfacet, nodes: &HSpaceNodes) -> Vec<Twin> {
         Twin {
             name: "integrand",
             wgsl: "vec4(integrand(p.x, p.y, p.z, p.w), 0.0, 0.0)",
-            rust: Box::new(move |a| pair(integrand(lobe, a[0], a[1], a[2], a[3]))),
+            rust: Box::new(move |a| pair(integrand(View::new(lobe, a[1], a[2]), a[0], a[3]))),
             // v·h = (x + μ) half_secant stays below 1.
             arguments: |random| {
                 let (x, mu) = (unit(random), unit(random));
@@ -157,7 +157,7 @@ fn twins(lobe: Microfacet, nodes: &HSpaceNodes) -> Vec<Twin> {
             wgsl: "full(p.x, p.y, p.z)",
             rust: Box::new(move |a| {
                 let tau = a[2] * a[0] / (1.0 + sine(a[0]));
-                pair(full_circle(lobe, a[0], a[1], ring(a[0], sine(a[0]), tau), &full.azimuth))
+                pair(full_circle(View::new(lobe, a[0], a[1]), ring(a[0], sine(a[0]), tau), &full.azimuth))
             }),
             arguments: |random| [unit(random), small(random), unit(random), 0.0],
             // 8 terms of the integrand; at the horizon x is the difference of two numbers up to 1.
@@ -170,7 +170,7 @@ fn twins(lobe: Microfacet, nodes: &HSpaceNodes) -> Vec<Twin> {
             rust: Box::new(move |a| {
                 let t1 = a[0] / (1.0 + sine(a[0]));
                 let tau = t1 * (1.0 + a[2] * (1.0 / (t1 * t1) - 1.0));
-                pair(cut_circle(lobe, a[0], a[1], ring(a[0], sine(a[0]), tau), &cut.azimuth_horizon))
+                pair(cut_circle(View::new(lobe, a[0], a[1]), ring(a[0], sine(a[0]), tau), &cut.azimuth_horizon))
             }),
             arguments: |random| {
                 let mu = 0.05 + 0.9 * unit(random);

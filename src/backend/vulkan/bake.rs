@@ -2,7 +2,7 @@
 
 use super::buffer::Buffer;
 use super::gpu::Gpu;
-use super::pipeline::Pipeline;
+use super::pipeline::{Elapsed, Pipeline};
 use crate::backend::Progress;
 use crate::backend::shader::bake_kernel;
 use crate::error::{Error, Result};
@@ -23,6 +23,16 @@ const LARGEST_TILE: usize = 1 << 22;
 /// What lies in the results before the device writes them: a NaN that no arithmetic makes.
 const POISON: [u32; 2] = [0x7fc0_dead; 2];
 
+/// A device's work.
+#[derive(Clone, Debug)]
+pub struct DeviceBake {
+    /// (A, B) at every point of the grid, in its order.
+    pub integrals: Vec<ScaleBias>,
+    /// Seconds that the dispatches took by the device's own clock, without start, compilation and transfer; none where it
+    /// has no clock.
+    pub device_seconds: Option<f64>,
+}
+
 /// (A, B) at every point of the grid, in its order, integrated by `rule` in f32; a diffuse lobe takes no notice of the rule.
 pub fn bake(
     gpu: &Gpu,
@@ -30,7 +40,7 @@ pub fn bake(
     grid: &Grid,
     rule: &HSpaceRule,
     progress: Progress,
-) -> Result<Vec<ScaleBias>> {
+) -> Result<DeviceBake> {
     let kernel = bake_kernel(integrand.into(), rule.power)?;
     let group = kernel.workgroup;
     let largest = largest_tile(gpu, group).min(grid.len());
@@ -43,21 +53,23 @@ pub fn bake(
     let pipeline = Pipeline::new(gpu, &kernel, &buffers)?;
     let poison = vec![POISON; largest];
     let mut integrals = Vec::with_capacity(grid.len());
+    let mut device_seconds = Some(0.0);
     while integrals.len() < grid.len() {
         let first = integrals.len();
         let count = tile.min(grid.len() - first);
         results.write(&poison[..count]);
         let push: Vec<u32> = [first, first + count].into_iter().chain(rule.counts()).map(|n| n as u32).collect();
-        let elapsed = pipeline.run(bytemuck::cast_slice(&push), count.div_ceil(group) as u32)?;
+        let Elapsed { wall, device } = pipeline.run(bytemuck::cast_slice(&push), count.div_ceil(group) as u32)?;
+        device_seconds = device_seconds.zip(device).map(|(sum, device)| sum + device);
         let values = results.read::<[f32; 2]>(count);
         integrals.extend(values.into_iter().map(|[a, b]| ScaleBias { a: a.into(), b: b.into() }));
         progress(count);
         if gpu.options().tile.is_none() {
-            tile = next_tile(tile, elapsed).next_multiple_of(group).min(largest);
+            tile = next_tile(tile, wall).next_multiple_of(group).min(largest);
         }
     }
     said_nothing(gpu)?;
-    Ok(integrals)
+    Ok(DeviceBake { integrals, device_seconds })
 }
 
 /// The most texels that fit the device's limits on buffers and workgroups.

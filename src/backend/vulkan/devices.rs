@@ -43,6 +43,7 @@ pub(super) struct Found {
     pub info: DeviceInfo,
     pub physical: vk::PhysicalDevice,
     pub queue_family: u32,
+    pub timestamp_bits: u32,
 }
 
 /// All devices, the preferred ones first.
@@ -149,5 +150,6 @@ fn describe(instance: &Instance, physical: vk::PhysicalDevice) -> Found {
         api: version(basic.api_version),
         unusable,
     };
-    Found { info, physical, queue_family: family.unwrap_or(0) as u32 }
+    let timestamp_bits = family.map_or(0, |family| families[family].timestamp_valid_bits);
+    Found { info, physical, queue_family: family.unwrap_or(0) as u32, timestamp_bits }
 }

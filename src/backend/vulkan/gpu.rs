@@ -35,6 +35,8 @@ pub struct Gpu {
     pub(super) queue_family: u32,
     pub(super) memory: vk::PhysicalDeviceMemoryProperties,
     pub(super) limits: vk::PhysicalDeviceLimits,
+    /// The bits of the queue's clock that mean something; 0 where it has none.
+    pub(super) timestamp_mask: u64,
     info: DeviceInfo,
     options: GpuOptions,
     instance: Instance,
@@ -144,7 +146,9 @@ impl Gpu {
             )
         };
         let (info, options) = (found.info, options.clone());
-        Ok(Gpu { device, queue, queue_family: found.queue_family, memory, limits, info, options, instance })
+        let timestamp_mask = u64::MAX.checked_shr(64 - found.timestamp_bits).unwrap_or(0);
+        let queue_family = found.queue_family;
+        Ok(Gpu { device, queue, queue_family, memory, limits, timestamp_mask, info, options, instance })
     }
 
     /// What the device calls itself.

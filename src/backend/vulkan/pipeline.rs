@@ -8,6 +8,15 @@ use crate::error::{Error, Result};
 use ash::vk;
 use std::time::{Duration, Instant};
 
+/// How long a run took.
+#[derive(Clone, Copy, Debug)]
+pub struct Elapsed {
+    /// From the submission to the fence.
+    pub wall: Duration,
+    /// Seconds of the dispatch by the device's own clock; none where it has no clock.
+    pub device: Option<f64>,
+}
+
 /// How long a dispatch may take before it is given up: a hundred times what a tile aims at.
 const TIMEOUT: Duration = Duration::from_secs(20);
 
@@ -24,6 +33,8 @@ pub struct Pipeline<'g, 'b> {
     commands: vk::CommandPool,
     command: vk::CommandBuffer,
     fence: vk::Fence,
+    /// Two timestamps, where the queue has a clock.
+    timestamps: vk::QueryPool,
 }
 
 impl<'g, 'b> Pipeline<'g, 'b> {
@@ -45,6 +56,7 @@ impl<'g, 'b> Pipeline<'g, 'b> {
             commands: vk::CommandPool::null(),
             command: vk::CommandBuffer::null(),
             fence: vk::Fence::null(),
+            timestamps: vk::QueryPool::null(),
         };
         this.compile(kernel)?;
         this.bind(buffers)?;
@@ -128,12 +140,17 @@ impl<'g, 'b> Pipeline<'g, 'b> {
             let allocate = vk::CommandBufferAllocateInfo::default().command_pool(self.commands).command_buffer_count(1);
             self.command = device.allocate_command_buffers(&allocate).map_err(failed("allocating commands"))?[0];
             self.fence = device.create_fence(&Default::default(), None).map_err(failed("creating a fence"))?;
+            if self.gpu.timestamp_mask != 0 {
+                let pool = vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::TIMESTAMP).query_count(2);
+                self.timestamps =
+                    device.create_query_pool(&pool, None).map_err(failed("creating the device's clock"))?;
+            }
         }
         Ok(())
     }
 
     /// Runs `groups` workgroups with the push constants `push`, waits for them, and tells how long they took.
-    pub fn run(&self, push: &[u8], groups: u32) -> Result<Duration> {
+    pub fn run(&self, push: &[u8], groups: u32) -> Result<Elapsed> {
         use vk::{AccessFlags, PipelineStageFlags};
         let device = &self.gpu.device;
         let begin = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
@@ -147,6 +164,10 @@ impl<'g, 'b> Pipeline<'g, 'b> {
         // SAFETY: the command buffer is not in use: every run waits for its fence, or the device is lost.
         unsafe {
             device.begin_command_buffer(self.command, &begin).map_err(failed("recording"))?;
+            if self.timestamps != vk::QueryPool::null() {
+                device.cmd_reset_query_pool(self.command, self.timestamps, 0, 2);
+                device.cmd_write_timestamp(self.command, PipelineStageFlags::TOP_OF_PIPE, self.timestamps, 0);
+            }
             device.cmd_bind_pipeline(self.command, vk::PipelineBindPoint::COMPUTE, self.pipeline);
             let (bind, sets) = (vk::PipelineBindPoint::COMPUTE, [self.set]);
             device.cmd_bind_descriptor_sets(self.command, bind, self.layout, 0, &sets, &[]);
@@ -154,6 +175,9 @@ impl<'g, 'b> Pipeline<'g, 'b> {
                 device.cmd_push_constants(self.command, self.layout, vk::ShaderStageFlags::COMPUTE, 0, push);
             }
             device.cmd_dispatch(self.command, groups, 1, 1);
+            if self.timestamps != vk::QueryPool::null() {
+                device.cmd_write_timestamp(self.command, PipelineStageFlags::COMPUTE_SHADER, self.timestamps, 1);
+            }
             let (from, to) = (PipelineStageFlags::COMPUTE_SHADER, PipelineStageFlags::HOST);
             device.cmd_pipeline_barrier(self.command, from, to, vk::DependencyFlags::empty(), &to_host, &[], &[]);
             device.end_command_buffer(self.command).map_err(failed("recording"))?;
@@ -163,7 +187,24 @@ impl<'g, 'b> Pipeline<'g, 'b> {
                 .wait_for_fences(&[self.fence], true, TIMEOUT.as_nanos() as u64)
                 .map_err(failed("waiting for the work"))?;
         }
-        Ok(start.elapsed())
+        Ok(Elapsed { wall: start.elapsed(), device: self.device_seconds()? })
+    }
+
+    /// What lies between the two timestamps of the last run.
+    fn device_seconds(&self) -> Result<Option<f64>> {
+        if self.timestamps == vk::QueryPool::null() {
+            return Ok(None);
+        }
+        let mut ticks = [0u64; 2];
+        // SAFETY: the fence has been waited for, so that both timestamps are written.
+        unsafe {
+            self.gpu
+                .device
+                .get_query_pool_results(self.timestamps, 0, &mut ticks, vk::QueryResultFlags::TYPE_64)
+                .map_err(failed("reading the device's clock"))?;
+        }
+        let ticks = ticks[1].wrapping_sub(ticks[0]) & self.gpu.timestamp_mask;
+        Ok(Some(1e-9 * f64::from(self.gpu.limits.timestamp_period) * ticks as f64))
     }
 }
 
@@ -173,6 +214,7 @@ impl Drop for Pipeline<'_, '_> {
         // SAFETY: the device is idle, or lost, when the wait returns; null handles are ignored.
         unsafe {
             let _ = device.device_wait_idle();
+            device.destroy_query_pool(self.timestamps, None);
             device.destroy_fence(self.fence, None);
             device.destroy_command_pool(self.commands, None);
             device.destroy_descriptor_pool(self.descriptors, None);

@@ -1,0 +1,213 @@
+//! Certification: every value is the correctly rounded integral, whoever computes it, and what disagrees is found out.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+
+mod common;
+
+use common::ggx;
+use splitsum::axis::Axis;
+use splitsum::backend::{Backend, cpu};
+use splitsum::certify::ziv::{DeviceTable, Task, certify, stages};
+use splitsum::error::{Error, ExitCode};
+use splitsum::integrate::ScaleBias;
+use splitsum::integrate::rule::{CHARLIE_LIMIT, REFERENCE, Rule};
+use splitsum::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Grid, Lut};
+use splitsum::model::{Diffuse, Masking, Microfacet, Ndf};
+use splitsum::precision::Precision;
+use splitsum::request::Request;
+use splitsum::units::F0;
+
+fn ab(lobe: Microfacet) -> Lut {
+    Lut::Dfg(Dfg { lobe, channels: DfgChannels::Ab })
+}
+
+fn grid(x: &str, y: &str, size: usize) -> Grid {
+    let axis = |words: &str| Axis::new(words.parse().unwrap(), size).unwrap();
+    Grid::new(&axis(x), &axis(y)).unwrap()
+}
+
+fn task<'a>(lut: &'a Lut, grid: &'a Grid, precision: Precision) -> Task<'a> {
+    Task { lut, grid, precision, tolerance: precision.default_tolerance() }
+}
+
+#[test]
+fn every_value_of_every_lobe_is_the_reference_rounded() {
+    for lobe in Microfacet::all() {
+        let (lut, mut grid) = (ab(lobe), grid("nov", "roughness", 64));
+        if lobe.ndf == Ndf::Charlie {
+            grid.alphas.retain(|&alpha| alpha >= CHARLIE_LIMIT);
+        }
+        let truth = cpu::bake(lobe, &grid, &REFERENCE, &|_| ());
+        for precision in [Precision::F16, Precision::Unorm16, Precision::Unorm8] {
+            let certified = certify(&task(&lut, &grid, precision), None, &|_| ()).unwrap();
+            assert_eq!(certified.certificate.undecided, 0, "{lobe:?}");
+            let rounded = truth.iter().flat_map(|value| [value.a, value.b]).map(|value| precision.nearest(value));
+            let differ = certified.values.iter().zip(rounded).filter(|(value, truth)| **value != *truth).count();
+            assert_eq!(differ, 0, "{lobe:?} in {precision:?}");
+        }
+    }
+}
+
+#[test]
+fn the_hardest_texels_of_the_largest_usual_table_round_correctly() {
+    let (lut, grid) = (ab(ggx(Masking::HeightCorrelated)), grid("nov", "roughness", 512));
+    let lobe = ggx(Masking::HeightCorrelated);
+    let certified = certify(&task(&lut, &grid, Precision::F16), None, &|_| ()).unwrap();
+    // The published distance of the nearest value from a boundary is 8.2e-13.
+    let nearest = certified.certificate.smallest_distance.unwrap();
+    assert!((8.15e-13..8.25e-13).contains(&nearest), "{nearest:e}");
+    // Whatever lies within 1e-8 of a boundary, by the reference with more nodes.
+    let rule = Rule::named("l4608").unwrap();
+    let values = cpu::bake(lobe, &grid, &rule, &|_| ());
+    let hard = |v: &ScaleBias| [v.a, v.b].iter().any(|&v| Precision::F16.distance_to_boundary(v) < 1e-8);
+    let hard: Vec<usize> = (0..values.len()).filter(|&texel| hard(&values[texel])).collect();
+    assert!(hard.len() > 100, "{} are hard", hard.len());
+    let truth = cpu::bake_at(lobe, &grid, &REFERENCE.yardstick(), &hard);
+    for (&texel, truth) in hard.iter().zip(truth) {
+        let expected = [truth.a, truth.b].map(|value| Precision::F16.nearest(value));
+        assert_eq!(certified.values[2 * texel..][..2], expected, "texel {texel}");
+    }
+}
+
+#[test]
+fn stages_do_not_change_a_value_and_the_reference_sees_the_same_texels() {
+    // Whether or not a surrogate comes first, and however coarse a device is.
+    let lobe = ggx(Masking::HeightCorrelated);
+    let (lut, large) = (ab(lobe), grid("nov", "roughness", 96));
+    let task = task(&lut, &large, Precision::F16);
+    assert_eq!(stages(&task)[0].name, "s2304");
+    let whole = certify(&task, None, &|_| ()).unwrap();
+    let rule = Rule::named("h640").unwrap();
+    let mut points = cpu::bake(lobe, &large, &rule, &|_| ());
+    for shift in [0.0, 8e-7, -8e-7] {
+        points.iter_mut().for_each(|value| value.a += shift);
+        let device = DeviceTable { points: &points, rule: &rule, name: "a device" };
+        let through = certify(&task, Some(device), &|_| ()).unwrap();
+        assert_eq!((&through.values, &through.certificate), (&whole.values, &whole.certificate));
+    }
+    for (row, &alpha) in large.alphas.iter().enumerate().step_by(20) {
+        let small = Grid::of(large.mus.clone(), vec![alpha]);
+        let alone = certify(&Task { grid: &small, ..task }, None, &|_| ()).unwrap();
+        assert_eq!(alone.stages[0].by, "CPU f64, l4608");
+        assert_eq!(alone.values[..], whole.values[2 * 96 * row..][..2 * 96]);
+    }
+}
+
+/// The failure of certification when a good device's table is spoiled.
+fn found_out(lobe: Microfacet, spoil: fn(&mut [ScaleBias])) -> Option<Error> {
+    let (lut, grid, rule) = (ab(lobe), grid("nov", "roughness", 64), Rule::named("h640").unwrap());
+    let mut points = cpu::bake(lobe, &grid, &rule, &|_| ());
+    spoil(&mut points);
+    let device = DeviceTable { points: &points, rule: &rule, name: "a device" };
+    certify(&task(&lut, &grid, Precision::F16), Some(device), &|_| ()).err()
+}
+
+#[test]
+fn a_device_that_errs_beyond_its_bound_is_found_out() {
+    let (covered, other) = (ggx(Masking::Separable), Microfacet { ndf: Ndf::Beckmann, masking: Masking::Separable });
+    for lobe in [covered, other] {
+        assert!(found_out(lobe, |_| ()).is_none(), "{lobe:?}");
+        let faults: [fn(&mut [ScaleBias]); 6] = [
+            |table| table.fill(ScaleBias::default()),
+            |table| table[7 * 64..8 * 64].fill(ScaleBias::default()),
+            |table| table[1234].a = f64::NAN,
+            |table| table[1234].b = 1.5,
+            |table| (0..64).for_each(|i| table.swap(i, 64 + i)),
+            |table| table.iter_mut().for_each(|value| value.b += 4e-6),
+        ];
+        for (i, fault) in faults.into_iter().enumerate() {
+            let error = found_out(lobe, fault).unwrap_or_else(|| panic!("fault {i} of {lobe:?} passed"));
+            assert_eq!(error.exit_code(), ExitCode::CheckFailed);
+        }
+    }
+    // Where a surrogate checks every texel, a single one is enough.
+    for texel in [0, 777, 1234, 4095] {
+        let error = match texel {
+            0 => found_out(covered, |table| table[0].a += 1e-5),
+            777 => found_out(covered, |table| table[777].b -= 1e-5),
+            1234 => found_out(covered, |table| table[1234].a -= 1e-5),
+            _ => found_out(covered, |table| table[4095].b += 1e-5),
+        };
+        let text = error.unwrap_or_else(|| panic!("a wrong texel {texel} passed")).to_string();
+        assert!(text.contains("a device") && text.contains("farther apart"), "{text}");
+    }
+}
+
+#[test]
+fn every_family_is_certified() {
+    let energy = |lobe, channels| Lut::Energy(Energy::new(lobe, F0::new(0.04).unwrap(), channels).unwrap());
+    let (smith, beckmann) =
+        (ggx(Masking::HeightCorrelated), Microfacet { ndf: Ndf::Beckmann, masking: Masking::Separable });
+    let mut luts: Vec<Lut> = Diffuse::ALL.map(Lut::Diffuse).into();
+    for channels in
+        [EnergyChannels::Average, EnergyChannels::KullaConty, EnergyChannels::Turquin, EnergyChannels::Split]
+    {
+        luts.extend([smith, beckmann].map(|lobe| energy(lobe, channels)));
+    }
+    let grid = grid("nov,edges", "roughness,edges", 24);
+    for lut in luts {
+        for precision in [Precision::F16, Precision::F32] {
+            let certified = certify(&task(&lut, &grid, precision), None, &|_| ()).unwrap();
+            // What a smooth lobe loses or leaves tends to 0, where f32 has finer steps than the reference.
+            let vanishes = ["(1-E)/E", "1-F"].contains(&lut.channels()[0].name);
+            let fine = precision == Precision::F32 && vanishes;
+            assert!(fine || certified.certificate.undecided == 0, "{lut:?}: {}", certified.certificate.promise);
+        }
+    }
+}
+
+#[test]
+fn f32_is_rounded_correctly_where_that_is_cheap_and_else_within_its_bound() {
+    let lobe = ggx(Masking::HeightCorrelated);
+    let lut = ab(lobe);
+    for (size, correct) in [(24, true), (96, false)] {
+        let grid = grid("nov", "roughness", size);
+        let certified = certify(&task(&lut, &grid, Precision::F32), None, &|_| ()).unwrap();
+        let truth = cpu::bake(lobe, &grid, &REFERENCE, &|_| ());
+        let pairs = || certified.values.iter().zip(truth.iter().flat_map(|value| [value.a, value.b]));
+        assert_eq!(certified.certificate.undecided == 0, correct);
+        assert_eq!(pairs().all(|(value, truth)| *value == f64::from(truth as f32)), correct);
+        // The certificate's bound holds, and it is the tolerance and half a step.
+        let bound = certified.certificate.bound;
+        assert!(pairs().all(|(value, truth)| (value - truth).abs() <= bound), "{size}");
+        assert!(bound <= Precision::F32.default_tolerance() + Precision::F32.half_step());
+    }
+}
+
+#[test]
+fn where_the_reference_is_worse_the_certificate_says_so() {
+    let lobe = Microfacet { ndf: Ndf::Charlie, masking: Masking::Neubelt };
+    let (lut, grid) = (ab(lobe), Grid::of(vec![0.2, 0.5, 0.9], vec![0.03 * 0.03, 0.5]));
+    let certified = certify(&task(&lut, &grid, Precision::F16), None, &|_| ()).unwrap();
+    let promise = &certified.certificate.promise;
+    assert!((1..=3).contains(&certified.certificate.undecided) && promise.contains("2e-6"), "{promise}");
+}
+
+#[test]
+fn distances_to_boundaries_are_those_of_rounding() {
+    for precision in [Precision::F16, Precision::F32, Precision::Unorm16, Precision::Unorm8] {
+        let mut random = common::Random(7);
+        for i in 0..20_000 {
+            // Some just above a power of two, where the boundary below belongs to finer steps.
+            let power = 2f64.powi(-(i % 12));
+            let value =
+                if i % 3 == 0 { 0.999f64.min(power * (1.0 + 1e-4 * random.next())) } else { 0.999 * random.next() };
+            let distance = precision.distance_to_boundary(value);
+            let at = |d: f64| precision.nearest(value + d);
+            let near = 0.999 * distance;
+            assert!(at(near) == at(0.0) && at(-near) == at(0.0), "{precision:?}: {value} is nearer than {distance:e}");
+            let far = 1.001 * distance + 1e-17;
+            assert!(at(far) != at(0.0) || at(-far) != at(0.0), "{precision:?}: {value} is farther than {distance:e}");
+        }
+    }
+}
+
+#[test]
+fn a_certificate_stands_in_the_file_and_is_the_same_for_the_same_request() {
+    let request = Request::with_default_axes(ab(ggx(Masking::HeightCorrelated)), (16, 8), Precision::F16).unwrap();
+    let baked = || splitsum::bake(&request, &Backend::cpu(), &|_| ()).unwrap();
+    let (one, other) = (baked(), baked());
+    assert_eq!(one.table, other.table);
+    let bytes = one.table.values.iter().flat_map(|&value| splitsum::half::round(value).to_le_bytes());
+    let hash = blake3::hash(&bytes.collect::<Vec<u8>>()).to_hex().to_string();
+    assert_eq!(one.report.certificate().unwrap().blake3, hash);
+}

@@ -1,0 +1,88 @@
+//! The bounds by which values are certified, for A and for every decade of B, over many random points against the reference:
+//! none is violated, and one that is too small is noticed.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use common::Random;
+use rayon::prelude::*;
+use splitsum::backend::cpu;
+use splitsum::integrate::ScaleBias;
+use splitsum::integrate::rule::{CHARLIE_LIMIT, REFERENCE, Rule};
+use splitsum::model::{Microfacet, Ndf};
+
+/// The rules that decide how values round.
+const STAGES: [&str; 4] = ["s2304", "l4608", "d6144", "d10240"];
+
+/// Points in all: 100,000, or what SPLITSUM_COVERAGE says (.ci/run: a million).
+fn points_in_all() -> usize {
+    std::env::var("SPLITSUM_COVERAGE").map_or(100_000, |count| count.parse().unwrap())
+}
+
+/// The share of a lobe in the points: each gets about as much time, but for the lobe that everyone bakes.
+fn share(lobe: Microfacet) -> f64 {
+    match lobe.ndf {
+        Ndf::Ggx if lobe.masking == lobe.ndf.default_masking() => 0.3,
+        Ndf::Ggx => 0.1,
+        Ndf::Charlie => 0.01,
+        _ => 0.033,
+    }
+}
+
+/// Points (n·v, α) of which three eighths are spread evenly over n·v and perceptual roughness, as a table's are, and the others crowd at the
+/// edges: n·v down to 1e-12 from 0 and 1, roughness down to 1e-9 and up to 1.
+fn points(lobe: Microfacet, count: usize) -> Vec<(f64, f64)> {
+    let mut random = Random(20261123);
+    let edge = |u: f64, decades: f64| 10f64.powf(-decades * u);
+    (0..count)
+        .map(|i| {
+            let (u, v) = (random.next(), random.next());
+            let (mu, r) = match i % 8 {
+                0..3 => (u, v),
+                3 => (edge(u, 12.0), v),
+                4 => (u, edge(v, 9.0)),
+                5 => (1.0 - edge(u, 12.0), v),
+                6 => (u, 1.0 - edge(v, 6.0)),
+                // Also where both are small, down to the smoothest row of a surrogate.
+                _ => (edge(u, 8.0), edge(v, 3.01)),
+            };
+            let alpha = if lobe.ndf == Ndf::Charlie { CHARLIE_LIMIT + (1.0 - CHARLIE_LIMIT) * r * r } else { r * r };
+            (if lobe.diverges_at_grazing() { mu.max(1e-4) } else { mu }, alpha)
+        })
+        .collect()
+}
+
+/// Values of A and of B that lie beyond `scale` times the bounds of a rule.
+fn violations(lobe: Microfacet, rule: &Rule, points: &[(f64, f64)], truth: &[ScaleBias], scale: f64) -> usize {
+    let values = cpu::bake_points(lobe, points, rule);
+    let beyond = |((&(_, alpha), truth), value): ((&(f64, f64), &ScaleBias), &ScaleBias)| {
+        let (errors, reference) = (rule.errors_at(lobe, alpha, *value), REFERENCE.errors_at(lobe, alpha, *truth));
+        // Written so that NaN is a violation.
+        let within = |x: f64, y: f64, error: f64, reference: f64| (x - y).abs() <= scale * error + reference;
+        usize::from(!within(value.a, truth.a, errors.a, reference.a))
+            + usize::from(!within(value.b, truth.b, errors.b, reference.b))
+    };
+    points.par_iter().zip(truth).zip(&values).map(beyond).sum()
+}
+
+#[test]
+fn no_bound_is_violated_and_one_too_small_is_noticed() {
+    let mut tested = 0;
+    for lobe in Microfacet::all() {
+        let points = points(lobe, (share(lobe) * points_in_all() as f64) as usize);
+        let truth = cpu::bake_points(lobe, &points, &REFERENCE);
+        tested += points.len();
+        for rule in STAGES.map(|name| Rule::named(name).unwrap()).iter().filter(|rule| rule.applies_to(lobe)) {
+            let found = violations(lobe, rule, &points, &truth, 1.0);
+            assert_eq!(found, 0, "{} of {lobe:?} errs by more than its bound at so many values", rule.name);
+        }
+    }
+    assert!(tested as f64 > 0.95 * points_in_all() as f64, "{tested} points");
+    // The same test with bounds that are planted too small.
+    let lobe = Microfacet { ndf: Ndf::Ggx, masking: Ndf::Ggx.default_masking() };
+    let points = points(lobe, 4000);
+    let truth = cpu::bake_points(lobe, &points, &REFERENCE);
+    for rule in STAGES.map(|name| Rule::named(name).unwrap()) {
+        assert!(violations(lobe, &rule, &points, &truth, 0.05) > 0, "{} with a twentieth of its bound", rule.name);
+    }
+}
