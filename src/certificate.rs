@@ -32,10 +32,8 @@ pub struct Stage {
     pub by: String,
     /// What A may be off.
     pub error_of_a: f64,
-    /// What B may be off: this share of itself, and
-    pub error_of_b_relative: f64,
-    /// this.
-    pub error_of_b: f64,
+    /// What B may be off where it is 1, 0.1, …, 1e-6.
+    pub error_of_b: [f64; 7],
     /// The texels for which it was asked.
     pub texels: usize,
     /// The texels that it decided.

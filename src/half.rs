@@ -14,10 +14,12 @@ pub fn step(value: f64) -> f64 {
 
 /// The half nearest to `value`, ties to even; beyond the largest half by half a step or more, infinity.
 pub fn nearest(value: f64) -> f64 {
-    // A division by a power of two is exact, so that the one rounding is round_ties_even's. What a carry makes of the mantissa
-    // is the first half of the next binade.
+    // Steps are powers of two, so that the one rounding is that to a whole number of them: adding 1.5 2^52 and taking it away
+    // again. What a carry makes of the mantissa is the first half of the next binade.
+    const WHOLE: f64 = 6_755_399_441_055_744.0;
     let step = step(value);
-    let nearest = (value / step).round_ties_even() * step;
+    let inverse = f64::from_bits((2046 << 52) - step.to_bits());
+    let nearest = ((value * inverse + WHOLE) - WHOLE) * step;
     if nearest.abs() > LARGEST { f64::INFINITY.copysign(value) } else { nearest }
 }
 

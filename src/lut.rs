@@ -175,10 +175,13 @@ impl Grid {
     /// The table with these values, as many for each point as there are `channels`, in the order of the points.
     pub fn table(&self, channels: &[Channel], (x, y): (Axis, Axis), values: &[f64], provenance: Provenance) -> Table {
         let (n, width) = (channels.len(), self.mus.len());
-        let texel = |i: usize, j: usize| if self.transposed { i * width + j } else { j * width + i };
-        let texels = (0..y.size).flat_map(|j| (0..x.size).map(move |i| texel(i, j)));
-        let values = texels.flat_map(|texel| &values[texel * n..][..n]).copied().collect();
-        Table { x, y, channels: channels.to_vec(), values, provenance }
+        let mut rows = Vec::with_capacity(values.len());
+        for texel in 0..self.len() {
+            let (i, j) = (texel % x.size, texel / x.size);
+            let point = if self.transposed { i * width + j } else { texel };
+            rows.extend_from_slice(&values[point * n..][..n]);
+        }
+        Table { x, y, channels: channels.to_vec(), values: rows, provenance }
     }
 }
 

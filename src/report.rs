@@ -66,9 +66,9 @@ pub enum Worth {
 /// Seconds of wall time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Seconds {
-    /// Integrating: on a device with compilation and transfer, on the CPU the first stage.
+    /// Integrating: on a device with compilation and transfer, on the CPU with certification.
     pub integrate: f64,
-    /// Certifying what was left, or cross-checking and measuring.
+    /// Certifying a device's table, or cross-checking and measuring.
     pub check: f64,
 }
 

@@ -113,8 +113,8 @@ impl Table {
     /// BLAKE3 of the values as they are stored: little-endian, row by row, the channels of a texel side by side.
     pub fn hash(&self, precision: Precision) -> Result<String> {
         let bits = precision.store(&self.values, 0.0)?;
-        let stored = |bits: &u32| bits.to_le_bytes().into_iter().take(precision.bytes());
-        let bytes: Vec<u8> = bits.iter().flat_map(stored).collect();
+        let mut bytes = Vec::with_capacity(bits.len() * precision.bytes());
+        bits.iter().for_each(|bits| bytes.extend_from_slice(&bits.to_le_bytes()[..precision.bytes()]));
         Ok(blake3::hash(&bytes).to_hex().to_string())
     }
 

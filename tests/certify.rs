@@ -6,7 +6,8 @@ mod common;
 use common::ggx;
 use splitsum::axis::Axis;
 use splitsum::backend::{Backend, cpu};
-use splitsum::certify::ziv::{DeviceTable, Task, certify, stages};
+use splitsum::certify::decision::Task;
+use splitsum::certify::ziv::{DeviceTable, certify, stages};
 use splitsum::error::{Error, ExitCode};
 use splitsum::integrate::ScaleBias;
 use splitsum::integrate::rule::{CHARLIE_LIMIT, REFERENCE, Rule};
@@ -198,6 +199,16 @@ fn distances_to_boundaries_are_those_of_rounding() {
             let far = 1.001 * distance + 1e-17;
             assert!(at(far) != at(0.0) || at(-far) != at(0.0), "{precision:?}: {value} is farther than {distance:e}");
         }
+    }
+}
+
+#[test]
+fn stages_report_a_bound_for_every_decade_of_b() {
+    let lobe = ggx(Masking::HeightCorrelated);
+    let (lut, grid) = (ab(lobe), grid("nov", "roughness", 96));
+    for stage in certify(&task(&lut, &grid, Precision::F16), None, &|_| ()).unwrap().stages {
+        let falls = stage.error_of_b.windows(2).all(|pair| pair[1] < pair[0]);
+        assert!(falls && stage.error_of_b[0] <= stage.error_of_a, "{stage:?}");
     }
 }
 

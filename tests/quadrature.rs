@@ -142,7 +142,7 @@ fn few_evaluations_reach_each_error_on_a_table_of_64_by_64() {
     let centre = |i: u32| (f64::from(i) + 0.5) / 64.0;
     let grid: Vec<(f64, f64)> = (0..64 * 64).map(|i| (centre(i % 64), centre(i / 64).powi(2))).collect();
     let truth = cpu::bake_points(lobe, &grid, &REFERENCE);
-    for (name, evaluations, largest) in [("h56", 64, 1e-3), ("s800", 160, 1e-5), ("s800", 320, 1e-6)] {
+    for (name, evaluations, largest) in [("h56", 64, 1e-3), ("s640", 160, 1e-5), ("s640", 320, 1e-6)] {
         let rule = Rule::named(name).unwrap();
         let (error, at) = worst(lobe, &rule, &grid, &truth);
         assert!(error <= largest, "{name} errs by {error:e} at {at:?}");
@@ -155,7 +155,7 @@ fn a_lane_holds_the_bits_of_a_single_number() {
     // Groups of eight share instructions, not results: neither neighbours nor their number may change a bit.
     for lobe in Microfacet::all() {
         let points = domain_of(lobe, 37);
-        for name in ["h56", "l288", "d6144", "s800"] {
+        for name in ["h56", "l288", "d6144", "s640"] {
             let rule = Rule::named(name).unwrap();
             if !rule.applies_to(lobe) || (name == "d6144" && lobe.ndf == Ndf::Charlie) {
                 continue;

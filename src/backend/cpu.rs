@@ -72,7 +72,7 @@ struct Interpolation {
 impl Interpolation {
     fn new(integrand: Integrand, rule: &SurrogateRule, source: &Rule) -> Self {
         let points = rule.points();
-        let surrogate = rule.fit(&integrate(integrand, source, points.len(), &|i| points[i], &|_| ()));
+        let surrogate = rule.fit(&points, &integrate(integrand, source, points.len(), &|i| points[i], &|_| ()));
         Interpolation { integrand, rule: *rule, surrogate, source: source.integrator() }
     }
 

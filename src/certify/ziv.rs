@@ -6,6 +6,7 @@
 //! The stages check each other. A value that differs from that of a finer stage by more than both may err is a fault, of the
 //! device or of a bound: the table is thrown away, not mended.
 
+use super::decision::{Task, check_apart};
 use super::deviation::{check_range, sample, scatter};
 use crate::backend::{Progress, cpu};
 use crate::certificate::{Certificate, Stage};
@@ -13,31 +14,15 @@ use crate::error::{Error, Result};
 use crate::integrate::average::{average, average_error, average_nodes};
 use crate::integrate::rule::{Method, REFERENCE, Rule};
 use crate::integrate::{Integrand, ScaleBias};
-use crate::lut::{Grid, Lut};
+use crate::lut::Grid;
 use crate::precision::Precision;
 use rayon::prelude::*;
 
 /// Texels that pass through the second stage though the first has decided them, so that one checks the other.
 const AUDITED: usize = 64;
 
-/// What the arithmetic of channels may err, relative: eight units in the last place.
-const ROUNDING: f64 = 2e-15;
-
-/// So many values, at the most, are rounded correctly to f32, whose steps are as fine as the fast stages' bounds.
+/// So many values of a table, at the most, are rounded correctly to f32, whose steps are as fine as the fast stages' bounds.
 const LARGEST_F32: usize = 4096;
-
-/// What is to be certified.
-#[derive(Clone, Copy, Debug)]
-pub struct Task<'a> {
-    /// The table.
-    pub lut: &'a Lut,
-    /// Its points.
-    pub grid: &'a Grid,
-    /// How it is stored.
-    pub precision: Precision,
-    /// The largest error of an integral that is stored in f32.
-    pub tolerance: f64,
-}
 
 /// A table that a device has computed.
 #[derive(Clone, Copy, Debug)]
@@ -87,7 +72,7 @@ pub fn certify(task: &Task, device: Option<DeviceTable>, progress: Progress) -> 
         margin: rules.len().checked_sub(2).map(|i| rules[i]),
         values: Vec::new(),
         open: vec![true; texels],
-        seen: Seen::default(),
+        seen: None,
         stages: Vec::new(),
         smallest_distance: None,
     };
@@ -95,7 +80,7 @@ pub fn certify(task: &Task, device: Option<DeviceTable>, progress: Progress) -> 
     run.decide_by_device(&rules[0])?;
     for (i, rule) in rules.iter().enumerate() {
         run.stage(i, rule, rules.len() - 1 - i, progress)?;
-        if !run.open.contains(&true) || run.is_left_at_f32() {
+        if !run.open.contains(&true) || !run.rounds_correctly() {
             break;
         }
     }
@@ -113,81 +98,111 @@ struct Run<'a> {
     values: Vec<f64>,
     /// Which texels are not decided.
     open: Vec<bool>,
-    seen: Seen,
+    seen: Option<Seen>,
     stages: Vec<Stage>,
     smallest_distance: Option<f64>,
 }
 
 /// What the previous stage of the CPU gave.
-#[derive(Default)]
 struct Seen {
-    rule: Option<Rule>,
-    /// In ascending order.
-    texels: Vec<usize>,
+    rule: Rule,
+    texels: Texels,
     integrals: Vec<ScaleBias>,
 }
 
-/// The averages of a grid's rows by a rule, and what they may be off; zeros where none are needed.
-struct Averages(Vec<(ScaleBias, ScaleBias)>);
+/// Texels in ascending order.
+enum Texels {
+    /// So many, from the first one on.
+    All(usize),
+    /// These.
+    Some(Vec<usize>),
+}
+
+impl Texels {
+    fn len(&self) -> usize {
+        match self {
+            Texels::All(count) => *count,
+            Texels::Some(texels) => texels.len(),
+        }
+    }
+
+    fn get(&self, place: usize) -> usize {
+        match self {
+            Texels::All(_) => place,
+            Texels::Some(texels) => texels[place],
+        }
+    }
+
+    fn place_of(&self, texel: usize) -> Option<usize> {
+        match self {
+            Texels::All(count) => (texel < *count).then_some(texel),
+            Texels::Some(texels) => texels.binary_search(&texel).ok(),
+        }
+    }
+}
 
 impl Run<'_> {
     fn integrand(&self) -> Integrand {
         self.task.lut.integrand()
     }
 
+    /// Whether values are rounded correctly: where steps are as fine as f32's, only if they are few or in closed form.
+    fn rounds_correctly(&self) -> bool {
+        let closed = matches!(self.integrand(), Integrand::Diffuse(_));
+        self.task.precision != Precision::F32 || closed || self.values.len() <= LARGEST_F32
+    }
+
     /// The device's stage; `averaging` is the CPU's rule for averages.
     fn decide_by_device(&mut self, averaging: &Rule) -> Result<()> {
         let Some(DeviceTable { points, rule, name }) = self.device else { return Ok(()) };
-        check_range(self.integrand(), self.task.grid, rule, points)?;
-        let mut decided = 0;
+        let integrand = self.integrand();
+        check_range(integrand, self.task.grid, rule, points)?;
+        let texels = Texels::All(self.open.len());
         // Steps of f32 are finer than a device is exact.
-        if self.task.precision != Precision::F32 {
-            let texels: Vec<usize> = (0..self.open.len()).collect();
+        let decided = if self.task.precision == Precision::F32 {
+            0
+        } else {
             let averages = self.averages(averaging, &texels);
-            let outcomes = self.outcomes(&texels, points, &averages, true, &|alpha, value| {
-                rule.device_errors_at(self.integrand(), alpha, value)
-            });
-            decided = self.settle(&texels, outcomes);
-        }
+            let errors_at = |alpha, value| rule.device_errors_at(integrand, alpha, value);
+            self.decide(&texels, points, &averages, self.margin, &errors_at).0
+        };
         self.stages.push(self.summary(format!("{name}, {}", rule.name), rule, true, self.open.len(), decided));
         Ok(())
     }
 
     /// A stage of the CPU, with `finer` stages after it.
     fn stage(&mut self, index: usize, rule: &Rule, finer: usize, progress: Progress) -> Result<()> {
-        let grid = self.task.grid;
-        let integrand = self.integrand();
+        let (grid, integrand) = (self.task.grid, self.integrand());
         // A surrogate is cheap enough to check a device at every texel.
         let whole = index == 0 && (self.device.is_none() || matches!(rule.method, Method::Surrogate(_)));
-        let texels = if whole { (0..grid.len()).collect() } else { self.asked(index) };
-        let integrals = match whole {
-            true => cpu::bake(integrand, grid, rule, progress),
-            false => cpu::bake_at(integrand, grid, rule, &texels),
+        let texels = if whole { Texels::All(grid.len()) } else { Texels::Some(self.asked(index)) };
+        let integrals = match &texels {
+            Texels::All(_) => cpu::bake(integrand, grid, rule, progress),
+            Texels::Some(texels) => cpu::bake_at(integrand, grid, rule, texels),
         };
         self.compare(&texels, &integrals, rule)?;
+        let asked = self.open.iter().filter(|&&open| open).count();
         let averages = self.averages(rule, &texels);
-        let outcomes = self.outcomes(&texels, &integrals, &averages, finer > 1, &|alpha, value| {
-            rule.errors_at(integrand, alpha, value)
-        });
-        if rule.name == REFERENCE.name {
-            let distances = outcomes.iter().filter_map(|outcome| outcome.decided.then_some(outcome.distance));
-            self.smallest_distance = distances.min_by(f64::total_cmp);
+        let errors_at = |alpha, value| rule.errors_at(integrand, alpha, value);
+        let margin = self.margin.filter(|_| finer > 1);
+        let (decided, nearest) = self.decide(&texels, &integrals, &averages, margin, &errors_at);
+        if rule.name == REFERENCE.name && decided > 0 {
+            self.smallest_distance = Some(nearest);
         }
-        let asked = texels.iter().filter(|&&texel| self.open[texel]).count();
-        let decided = self.settle(&texels, outcomes);
         self.stages.push(self.summary(format!("CPU f64, {}", rule.name), rule, false, asked, decided));
-        self.seen = Seen { rule: Some(*rule), texels, integrals };
+        self.seen = Some(Seen { rule: *rule, texels, integrals });
         Ok(())
     }
 
     /// The texels that are not decided, and a few that are.
     fn asked(&self, index: usize) -> Vec<usize> {
         let mut asked: Vec<usize> = (0..self.open.len()).filter(|&texel| self.open[texel]).collect();
-        if index == 0 {
-            asked.extend(sample(self.task.grid));
-        } else if index == 1 {
-            let seen = &self.seen.texels;
-            asked.extend((0..AUDITED).map(|i| seen[scatter(i) % seen.len()]));
+        match &self.seen {
+            None => asked.extend(sample(self.task.grid)),
+            Some(seen) if index == 1 => {
+                asked.extend((0..AUDITED).map(|i| seen.texels.get(scatter(i) % seen.texels.len())));
+            }
+            Some(_) => (),
         }
         asked.sort_unstable();
         asked.dedup();
@@ -195,9 +210,13 @@ impl Run<'_> {
     }
 
     /// Holds values of a finer stage against the one before it, and against the device.
-    fn compare(&self, texels: &[usize], integrals: &[ScaleBias], rule: &Rule) -> Result<()> {
+    fn compare(&self, texels: &Texels, integrals: &[ScaleBias], rule: &Rule) -> Result<()> {
+        if self.device.is_none() && self.seen.is_none() {
+            return Ok(());
+        }
         let integrand = self.integrand();
-        let compare = |(&texel, &value): (&usize, &ScaleBias)| {
+        let compare = |(place, &value): (usize, &ScaleBias)| {
+            let texel = texels.get(place);
             let (mu, alpha) = self.task.grid.point(texel);
             let errors = rule.errors_at(integrand, alpha, value);
             if let Some(DeviceTable { points, rule, name }) = self.device {
@@ -209,8 +228,9 @@ impl Run<'_> {
                     ))
                 })?;
             }
-            if let (Some(coarse), Ok(i)) = (self.seen.rule, self.seen.texels.binary_search(&texel)) {
-                let theirs = self.seen.integrals[i];
+            let coarse =
+                self.seen.as_ref().and_then(|seen| Some((&seen.rule, seen.integrals[seen.texels.place_of(texel)?])));
+            if let Some((coarse, theirs)) = coarse {
                 check_apart(theirs, value, coarse.errors_at(integrand, alpha, theirs), errors).map_err(|apart| {
                     let rules = format!("rule {} beside {}", coarse.name, rule.name);
                     Error::CheckFailed(format!("at n.v = {mu}, alpha = {alpha} {rules} {apart}; please report this"))
@@ -218,18 +238,19 @@ impl Run<'_> {
             }
             Ok(())
         };
-        texels.par_iter().zip(integrals).try_for_each(compare)
+        integrals.par_iter().enumerate().try_for_each(compare)
     }
 
-    fn averages(&self, rule: &Rule, texels: &[usize]) -> Averages {
+    /// The averages of the rows of these texels by a rule, and what they may be off; zeros where none are needed.
+    fn averages(&self, rule: &Rule, texels: &Texels) -> Vec<(ScaleBias, ScaleBias)> {
         let grid = self.task.grid;
         let mut averages = vec![(ScaleBias::default(), ScaleBias::default()); grid.alphas.len()];
         if self.task.lut.needs_averages() {
-            let mut rows: Vec<usize> = texels.iter().map(|texel| texel / grid.mus.len()).collect();
+            let mut rows: Vec<usize> = (0..texels.len()).map(|place| texels.get(place) / grid.mus.len()).collect();
             rows.dedup();
             let nodes = average_nodes();
-            let directions =
-                Grid::of(nodes.iter().map(|node| node.0).collect(), rows.iter().map(|&row| grid.alphas[row]).collect());
+            let alphas = rows.iter().map(|&row| grid.alphas[row]).collect();
+            let directions = Grid::of(nodes.iter().map(|node| node.0).collect(), alphas);
             let integrals = cpu::bake(self.integrand(), &directions, rule, &|_| ());
             for (integrals, &row) in integrals.chunks(nodes.len()).zip(&rows) {
                 let average = average(&nodes, integrals);
@@ -239,92 +260,81 @@ impl Run<'_> {
                 averages[row] = (average, errors);
             }
         }
-        Averages(averages)
+        averages
     }
 
-    /// Whether these integrals leave no doubt about the stored values of their texels.
-    fn outcomes(
-        &self,
-        texels: &[usize],
+    /// Takes over what these integrals decide, and the best guess where they do not; tells how many texels they do, and how near
+    /// the nearest of those is to a boundary of rounding.
+    fn decide(
+        &mut self,
+        texels: &Texels,
         integrals: &[ScaleBias],
-        averages: &Averages,
-        with_margin: bool,
+        averages: &[(ScaleBias, ScaleBias)],
+        margin: Option<Rule>,
         errors_at: &(dyn Fn(f64, ScaleBias) -> ScaleBias + Sync),
-    ) -> Vec<Outcome> {
-        let Task { lut, grid, precision, .. } = *self.task;
-        let margin = self.margin.filter(|_| with_margin);
-        let outcome = |(&texel, &value): (&usize, &ScaleBias)| {
-            let (mu, alpha) = grid.point(texel);
+    ) -> (usize, f64) {
+        let (channels, task, rounds, integrand) = (self.channels, self.task, self.rounds_correctly(), self.integrand());
+        let width = task.grid.mus.len();
+        let decide = |texel: usize, value: ScaleBias, values: &mut [f64], open: &mut bool| {
+            let (mu, alpha) = task.grid.point(texel);
             let mut errors = errors_at(alpha, value);
-            if let Some(margin) = margin {
-                errors.add(2.0, margin.errors_at(self.integrand(), alpha, value));
+            if let Some(margin) = &margin {
+                errors.add(2.0, margin.errors_at(integrand, alpha, value));
             }
-            let (average, average_errors) = averages.0[texel / grid.mus.len()];
-            // A channel is monotonic along this line from one end to the other.
-            let at = |t: f64| {
-                let integral = ScaleBias { a: value.a + t * errors.a, b: value.b + t * errors.b };
-                let average = ScaleBias { a: average.a - t * average_errors.a, b: average.b - t * average_errors.b };
-                lut.values(mu, integral, average)
-            };
-            let (low, middle, high) = (at(-1.0), at(0.0), at(1.0));
-            // Adding 0 makes 0 of -0: no albedo is negative, though an estimate of a tiny one may be.
-            let values = middle.map(|value| precision.nearest(value) + 0.0);
-            let mut outcome = Outcome { values, decided: true, distance: f64::INFINITY };
-            for channel in 0..self.channels {
-                // The channels' own arithmetic may err by a few units in the last place.
-                let slack = ROUNDING * middle[channel].abs();
-                let (one, other) = (low[channel].min(high[channel]) - slack, low[channel].max(high[channel]) + slack);
-                outcome.decided &= precision.nearest(one) == precision.nearest(other);
-                if !with_margin {
-                    outcome.distance = outcome.distance.min(precision.distance_to_boundary(middle[channel]));
-                }
-            }
-            outcome
+            let decided = task.decide(mu, (value, errors), averages[texel / width], values) && rounds;
+            *open = !decided;
+            decided
         };
-        texels.par_iter().zip(integrals).with_min_len(256).map(outcome).collect()
-    }
-
-    /// Takes over what was decided, and the best guess of what was not; tells how many were.
-    fn settle(&mut self, texels: &[usize], outcomes: Vec<Outcome>) -> usize {
-        let mut decided = 0;
-        for (&texel, outcome) in texels.iter().zip(outcomes) {
-            if self.open[texel] {
-                self.values[texel * self.channels..][..self.channels].copy_from_slice(&outcome.values[..self.channels]);
-                self.open[texel] = !outcome.decided;
-                decided += usize::from(outcome.decided);
+        match texels {
+            Texels::All(_) => {
+                let rows = self.values.par_chunks_mut(channels * width).zip(self.open.par_chunks_mut(width));
+                let decided =
+                    rows.zip(integrals.par_chunks(width)).enumerate().map(|(row, ((values, open), integrals))| {
+                        let texels = values.chunks_exact_mut(channels).zip(open).zip(integrals).enumerate();
+                        let open = texels.filter(|(_, ((_, open), _))| **open);
+                        open.map(|(i, ((values, open), &value))| {
+                            usize::from(decide(row * width + i, value, values, open))
+                        })
+                        .sum::<usize>()
+                    });
+                (decided.sum(), f64::INFINITY)
+            }
+            Texels::Some(texels) => {
+                let (mut count, mut nearest) = (0, f64::INFINITY);
+                for (&texel, &value) in texels.iter().zip(integrals) {
+                    let values = &mut self.values[texel * channels..][..channels];
+                    if self.open[texel] && decide(texel, value, values, &mut self.open[texel]) {
+                        count += 1;
+                        let mu = task.grid.point(texel).0;
+                        nearest = nearest.min(task.distance_to_boundary(mu, value, averages[texel / width].0));
+                    }
+                }
+                (count, nearest)
             }
         }
-        decided
     }
 
     fn summary(&self, by: String, rule: &Rule, device: bool, texels: usize, decided: usize) -> Stage {
-        // At B = 1 and B = 0, and above the roughness below which Charlie's bounds are others.
+        // Above the roughness below which Charlie's bounds are others.
         let errors = |b: f64| match device {
             true => rule.device_errors_at(self.integrand(), 1.0, ScaleBias { a: 0.0, b }),
             false => rule.errors_at(self.integrand(), 1.0, ScaleBias { a: 0.0, b }),
         };
-        let (one, zero) = (errors(1.0), errors(0.0));
-        Stage { by, error_of_a: one.a, error_of_b_relative: one.b - zero.b, error_of_b: zero.b, texels, decided }
-    }
-
-    /// Whether so many values of an f32 table are left that they stay within their bound instead.
-    fn is_left_at_f32(&self) -> bool {
-        let left = self.open.iter().filter(|&&open| open).count();
-        self.task.precision == Precision::F32 && left * self.channels > LARGEST_F32
+        let decades = [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
+        Stage { by, error_of_a: errors(1.0).a, error_of_b: decades.map(|b| errors(b).b), texels, decided }
     }
 
     fn finish(self, rules: &[Rule]) -> Certified {
         let (texels, undecided) = (self.open.len(), self.open.iter().filter(|&&open| open).count());
-        let last = self.seen.rule.unwrap_or(REFERENCE);
         let by_reference =
             self.stages.iter().filter(|stage| stage.by.ends_with(REFERENCE.name)).map(|s| s.decided).sum();
         let half_step = self.task.precision.half_step();
         let reference_error = rules.last().map_or(0.0, |rule| rule.bound(self.integrand()));
-        let left_at_f32 = self.is_left_at_f32();
-        let error = if left_at_f32 { last.bound(self.integrand()) } else { reference_error };
+        let rounds = self.rounds_correctly();
+        let error = if rounds { reference_error } else { rules[0].bound(self.integrand()) };
         let promise = if undecided == 0 {
             "every value is the true integral, rounded once to the nearest, ties to even".into()
-        } else if left_at_f32 {
+        } else if !rounds {
             format!(
                 "before it was rounded, every value was within {error:e} of the true integral (of albedos above 1 relative)"
             )
@@ -347,35 +357,4 @@ impl Run<'_> {
         };
         Certified { values: self.values, certificate, stages: self.stages }
     }
-}
-
-/// What a stage says of a texel.
-struct Outcome {
-    values: [f64; 3],
-    decided: bool,
-    /// From the nearest boundary of rounding, the nearest of the channels'.
-    distance: f64,
-}
-
-/// Refuses two values that are farther apart than both may err.
-fn check_apart(
-    theirs: ScaleBias,
-    ours: ScaleBias,
-    allowed: ScaleBias,
-    errors: ScaleBias,
-) -> std::result::Result<(), String> {
-    // Written so that NaN fails.
-    let close = |x: f64, y: f64, allowed: f64| (x - y).abs() <= allowed;
-    if close(theirs.a, ours.a, allowed.a + errors.a) && close(theirs.b, ours.b, allowed.b + errors.b) {
-        return Ok(());
-    }
-    Err(format!(
-        "gives A = {:e} and B = {:e} where they are {:e} and {:e}: farther apart than {:e} and {:e}",
-        theirs.a,
-        theirs.b,
-        ours.a,
-        ours.b,
-        allowed.a + errors.a,
-        allowed.b + errors.b
-    ))
 }

@@ -65,7 +65,7 @@ pub struct TableArgs {
     /// 1e-6 for f32 and unorm16, 1.5e-5 for f16, 1e-4 for unorm8; more for models of which a device keeps less]
     #[arg(long, value_name = "ERROR", conflicts_with = "rule")]
     pub tolerance: Option<f64>,
-    /// Store what this quadrature rule gives, not certified: h56 to h6144 (CPU and Vulkan), l288 to l4608, s800, s2304,
+    /// Store what this quadrature rule gives, not certified: h56 to h6144 (CPU and Vulkan), l288 to l4608, s640, s2304,
     /// d6144, d10240, reference (CPU)
     #[arg(long, value_name = "NAME")]
     pub rule: Option<String>,

@@ -74,14 +74,14 @@ pub const RULES: [Rule; 15] = [
     d("d10240", [80, 64], [6e-9, 6e-9, 6e-9, 6e-9, f64::INFINITY], (4e-8, 1e-12)),
     d("reference", [160, 150], [1e-13, 1e-13, 1e-13, 1e-13, 2e-6], (3e-12, 3e-24)),
     l("l288", L288, 3e-5, (1.0, 0.0)),
-    l("l768", L768, 2e-6, (1.0, 0.0)),
+    l("l512", L512, 8e-6, (1.0, 0.0)),
     l("l4608", L4608, 5e-9, (8e-8, 1e-12)),
-    s("s800", [40, 20], Power::Two, L768, 2e-6, (1.0, 0.0)),
+    s("s640", [32, 20], Power::Two, L512, 8e-6, (1.0, 0.0)),
     s("s2304", [64, 36], Power::Four, L4608, 3e-8, (8e-8, 3e-11)),
 ];
 
 const L288: LSpaceRule = LSpaceRule { slope: 24, azimuth: 12, power: Power::Two };
-const L768: LSpaceRule = LSpaceRule { slope: 48, azimuth: 16, power: Power::Two };
+const L512: LSpaceRule = LSpaceRule { slope: 32, azimuth: 16, power: Power::Two };
 const L4608: LSpaceRule = LSpaceRule { slope: 96, azimuth: 48, power: Power::Four };
 
 /// The rule that tables are measured against.

@@ -1,8 +1,8 @@
 //! A surrogate: (A, B) over all (n·v, α) by Chebyshev interpolation between the values of a rule at a few thousand points. A
 //! table of any size costs no more integrals than that, and a texel two short polynomials.
 //!
-//! With y = μ/α the first variable is s ∝ tanh(asinh(y)/c)^¼, c = 8 or 16, 1 at μ = 1: it spreads the layer μ ~ α over many nodes, and
-//! its fourth power, about μ near 0, turns the term μ ln μ of Smith masking into s⁴ ln s, which a polynomial follows. The second is
+//! With y = μ/α the first variable is s ∝ tanh(asinh(y)/c)^(1/q), 1 at μ = 1: it spreads the layer μ ~ α over many nodes, and
+//! its power q, about μ near 0, turns the term μ ln μ of Smith masking into s^q ln s, which a polynomial follows. The second is
 //! √r = α^¼. What is interpolated is E = A + B and what is left of B beyond a mirror's: B - (1-μ)⁵ E, which vanishes as α → 0
 //! (B itself changes over μ ~ 1, which s does not resolve at small α).
 
@@ -19,11 +19,11 @@ pub const SMOOTHEST: f64 = 1.0 / 1024.0;
 /// How many nodes along s and along √r, and which rule integrates there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurrogateRule {
-    /// Along s; a multiple of [`WIDTH`].
+    /// Along s; a multiple of twice [`WIDTH`].
     pub directions: usize,
-    /// Along √r.
+    /// Along √r; even.
     pub roughnesses: usize,
-    /// c of s: [`Power::Two`] is 8, for few nodes, [`Power::Four`] 16.
+    /// c and q of s: [`Power::Two`] is 8 and 2, for few nodes, [`Power::Four`] 16 and 4.
     pub power: Power,
     /// What integrates at the nodes.
     pub source: LSpaceRule,
@@ -40,10 +40,11 @@ pub struct Surrogate {
 /// The polynomials of one α.
 #[derive(Clone, Debug)]
 pub struct SurrogateRow {
-    alpha: f64,
     power: Power,
-    /// s at μ = 1 before it is scaled to 1.
-    end: f64,
+    /// 1/α
+    steepness: f64,
+    /// What scales s to 1 at μ = 1, before the root is taken.
+    scale: f64,
     coefficients: Vec<[f64; 2]>,
 }
 
@@ -89,25 +90,24 @@ impl SurrogateRule {
         rows.flat_map(|root| {
             let alpha = root * root * root * root;
             let end = compressed(1.0 / alpha, self.power);
-            let c = if self.power == Power::Four { 16.0 } else { 8.0 };
+            let (c, q) = if self.power == Power::Four { (16.0, 4) } else { (8.0, 2) };
             (0..self.directions).map(move |i| {
                 let s = chebyshev_node(i, self.directions);
-                let y = libm::sinh(c * libm::atanh(end * s * s * s * s));
+                let y = libm::sinh(c * libm::atanh(end * s.powi(q)));
                 ((alpha * y).min(1.0), alpha)
             })
         })
         .collect()
     }
 
-    /// The surrogate that has these integrals at [`SurrogateRule::points`].
-    pub fn fit(&self, integrals: &[ScaleBias]) -> Surrogate {
-        let points = self.points();
+    /// The surrogate that has these integrals at its `points`, those of [`SurrogateRule::points`].
+    pub fn fit(&self, points: &[(f64, f64)], integrals: &[ScaleBias]) -> Surrogate {
         let part = |channel: usize| -> Vec<f64> {
             let value = |(integral, &(mu, _)): (&ScaleBias, &(f64, f64))| match channel {
                 0 => integral.e(),
                 _ => integral.b - schlick_weight(mu) * integral.e(),
             };
-            let values: Vec<f64> = integrals.iter().zip(&points).map(value).collect();
+            let values: Vec<f64> = integrals.iter().zip(points).map(value).collect();
             // The transform along √r of the transform along s.
             let along_s = transform(&values, self.directions);
             transform(&transposed(&along_s, self.directions), self.roughnesses)
@@ -125,43 +125,42 @@ impl SurrogateRule {
 /// The Chebyshev coefficients of each run of `count` values at the Chebyshev nodes.
 fn transform(values: &[f64], count: usize) -> Vec<f64> {
     let n = count as f64;
-    let cosine = |turn: usize| libm::cos(PI * turn as f64 / (2.0 * n));
-    let cosines: Vec<f64> = (0..4 * count).map(cosine).collect();
-    let coefficient = |run: &[f64], k: usize| {
-        let sum: f64 = run.iter().enumerate().map(|(j, value)| value * cosines[k * (2 * j + 1) % (4 * count)]).sum();
-        if k == 0 { sum / n } else { 2.0 * sum / n }
-    };
-    values.chunks(count).flat_map(|run| (0..count).map(move |k| coefficient(run, k)).collect::<Vec<_>>()).collect()
+    let rows: Vec<Vec<f64>> = (0..count)
+        .map(|k| {
+            let scale = if k == 0 { 1.0 / n } else { 2.0 / n };
+            (0..count).map(|j| scale * libm::cos(PI * (k * (2 * j + 1) % (4 * count)) as f64 / (2.0 * n))).collect()
+        })
+        .collect();
+    let dot = |run: &[f64], row: &[f64]| -> f64 { run.iter().zip(row).map(|(value, weight)| value * weight).sum() };
+    values.chunks(count).flat_map(|run| rows.iter().map(move |row| dot(run, row))).collect()
 }
 
 fn transposed(values: &[f64], width: usize) -> Vec<f64> {
     (0..width).flat_map(|i| values.iter().skip(i).step_by(width).copied()).collect()
 }
 
-/// Clenshaw's summation of two series at once, each at two points: Σ c_k T_k(x), the coefficients c_k by `of`. Four sums side by
-/// side, since a step of one waits for the step before.
+/// Clenshaw's summation of four series side by side, since a step of one waits for the step before: Σ c_k T_k(x), an even number
+/// of coefficients c_k by `of`. Two steps at a time, so that the sums need not change places.
 #[inline(always)]
-fn clenshaw<R: Real, C>(coefficients: &[C], x: [R; 2], of: impl Fn(&C) -> (R, R)) -> [(R, R); 2] {
-    let zero = R::from(0.0);
-    let (twice, twice_also) = (x[0] * 2.0, x[1] * 2.0);
-    let mut now = [zero; 4];
-    let mut before = [zero; 4];
-    let (first, others) = coefficients.split_at(1);
-    for c in others.iter().rev() {
-        let (e, rest) = of(c);
-        let next = [
-            twice * now[0] + (e - before[0]),
-            twice * now[1] + (rest - before[1]),
-            twice_also * now[2] + (e - before[2]),
-            twice_also * now[3] + (rest - before[3]),
-        ];
-        (before, now) = (now, next);
+fn clenshaw<R: Real, C>(coefficients: &[C], x: [R; 4], of: impl Fn(&C) -> [R; 4]) -> [R; 4] {
+    let (zero, last) = (R::from(0.0), coefficients.len() - 1);
+    let twice = [x[0] * 2.0, x[1] * 2.0, x[2] * 2.0, x[3] * 2.0];
+    let (mut now, mut before) = (of(&coefficients[last]), [zero; 4]);
+    for pair in coefficients[1..last].rchunks_exact(2) {
+        let c = of(&pair[1]);
+        for i in 0..4 {
+            before[i] = twice[i] * now[i] + (c[i] - before[i]);
+        }
+        let c = of(&pair[0]);
+        for i in 0..4 {
+            now[i] = twice[i] * before[i] + (c[i] - now[i]);
+        }
     }
-    let (e, rest) = of(&first[0]);
-    [
-        (x[0] * now[0] + (e - before[0]), x[0] * now[1] + (rest - before[1])),
-        (x[1] * now[2] + (e - before[2]), x[1] * now[3] + (rest - before[3])),
-    ]
+    let mut sum = of(&coefficients[0]);
+    for i in 0..4 {
+        sum[i] = x[i] * now[i] + (sum[i] - before[i]);
+    }
+    sum
 }
 
 impl Surrogate {
@@ -170,13 +169,20 @@ impl Surrogate {
     pub fn row(&self, alpha: f64) -> SurrogateRow {
         let x = Lanes::from(2.0 * roughness_variable(alpha) - 1.0);
         let groups = self.coefficients[0].len();
-        let coefficients = (0..groups).flat_map(|group| {
-            let of = |row: &Vec<[Lanes; 2]>| (row[group][0], row[group][1]);
-            let [(e, rest), _] = clenshaw(&self.coefficients, [x, x], of);
-            (0..WIDTH).map(move |lane| [e.0[lane], rest.0[lane]])
-        });
-        let end = compressed(1.0 / alpha, self.power);
-        SurrogateRow { alpha, power: self.power, end, coefficients: coefficients.collect() }
+        let mut coefficients = vec![[0.0; 2]; groups * WIDTH];
+        for (pair, coefficients) in coefficients.chunks_exact_mut(2 * WIDTH).enumerate() {
+            let of = |row: &Vec<[Lanes; 2]>| {
+                let ([e, rest], [e_also, rest_also]) = (row[2 * pair], row[2 * pair + 1]);
+                [e, rest, e_also, rest_also]
+            };
+            let [e, rest, e_also, rest_also] = clenshaw(&self.coefficients, [x; 4], of);
+            for lane in 0..WIDTH {
+                coefficients[lane] = [e.0[lane], rest.0[lane]];
+                coefficients[WIDTH + lane] = [e_also.0[lane], rest_also.0[lane]];
+            }
+        }
+        let steepness = 1.0 / alpha;
+        SurrogateRow { power: self.power, steepness, scale: 1.0 / compressed(steepness, self.power), coefficients }
     }
 }
 
@@ -184,18 +190,24 @@ impl SurrogateRow {
     /// (A, B) at these n·v.
     #[inline(always)]
     pub fn at<R: Real>(&self, mu: [R; 2]) -> [ScaleBias<R>; 2] {
-        let of = |c: &[f64; 2]| (R::from(c[0]), R::from(c[1]));
-        let [one, other] = clenshaw(&self.coefficients, [self.place(mu[0]), self.place(mu[1])], of);
-        let integral = |mu: R, (e, rest): (R, R)| {
+        let of = |c: &[f64; 2]| {
+            let (e, rest) = (R::from(c[0]), R::from(c[1]));
+            [e, rest, e, rest]
+        };
+        let (x, x_also) = (self.place(mu[0]), self.place(mu[1]));
+        let [e, rest, e_also, rest_also] = clenshaw(&self.coefficients, [x, x, x_also, x_also], of);
+        let integral = |mu: R, e: R, rest: R| {
             let b = rest + schlick_weight(mu) * e;
             ScaleBias { a: e - b, b }
         };
-        [integral(mu[0], one), integral(mu[1], other)]
+        [integral(mu[0], e, rest), integral(mu[1], e_also, rest_also)]
     }
 
     /// 2s - 1
     #[inline(always)]
     fn place<R: Real>(&self, mu: R) -> R {
-        (compressed(mu / self.alpha, self.power) / self.end).sqrt().sqrt() * 2.0 - 1.0
+        let root = (compressed(mu * self.steepness, self.power) * self.scale).sqrt();
+        let s = if self.power == Power::Four { root.sqrt() } else { root };
+        s * 2.0 - 1.0
     }
 }

@@ -20,7 +20,7 @@ pub fn gauss_legendre(n: usize) -> Vec<Node> {
     for i in 0..n.div_ceil(2) {
         let mut x = libm::cos(PI * (i as f64 + 0.75) / (n as f64 + 0.5));
         // Newton's convergence is quadratic from this start: five steps reach rounding for every n up to 1e6.
-        for _ in 0..8 {
+        for _ in 0..5 {
             let (p, slope) = legendre(n, x);
             x -= p / slope;
         }

@@ -61,7 +61,7 @@ fn every_lobe(gpu: &Gpu) -> Result<(), Failed> {
             return Err(format!("{lobe:?}: other bytes").into());
         }
     }
-    // What tiles can change is the device's own values: not a bit of them.
+    // What tiles can change is the device's own values: not a bit of them; tests/vulkan/tables.rs tries more sizes.
     let rule = Rule::named("h640").ok().map(|rule| rule.method);
     let Some(Method::HSpace(nodes)) = rule else { return Err("no h640".into()) };
     let grid = Request::with_default_axes(ab(ggx(Masking::HeightCorrelated)), (128, 128), Precision::F16)?.grid()?;
@@ -72,7 +72,7 @@ fn every_lobe(gpu: &Gpu) -> Result<(), Failed> {
             Ok(baked.integrals.iter().map(|value| [value.a.to_bits(), value.b.to_bits()]).collect())
         };
         let whole = values(128 * 128)?;
-        if values(8)? != whole || values(64)? != whole {
+        if values(8)? != whole {
             return Err(format!("{lobe:?}: tiles change bits").into());
         }
     }
@@ -103,7 +103,7 @@ fn within_its_bounds(gpu: &Gpu) -> Result<(), Failed> {
             })
             .collect()
     };
-    let (mus, roughnesses) = (spread(160, 7.0), spread(160, 4.0));
+    let (mus, roughnesses) = (spread(96, 7.0), spread(96, 4.0));
     for lobe in Microfacet::all() {
         // f32's numbers, so that device and CPU mean the same points.
         let mut grid = Grid::of(
