@@ -28,7 +28,7 @@ pub struct Baked {
     pub report: Report,
 }
 
-/// Bakes a table. It has passed its checks when it comes back: see [`certify`].
+/// Bakes a table. It has passed its checks when it comes back: see [`crate::certify`].
 pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<Baked> {
     let grid = request.grid()?;
     let chosen = backend.choose(device_rule(request).err(), seconds_saved(request, &grid))?;
@@ -43,7 +43,7 @@ pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<
         Some(gpu) => Computed::Vulkan { device: gpu.info().clone(), reason, device_seconds },
     };
     let provenance = Provenance { command: request.to_string(), ..request.lut.provenance() };
-    let mut table = grid.table(request.lut.channels(), (request.x, request.y), &values, provenance);
+    let mut table = grid.table(request.lut.channels(), (request.x, request.y), values, provenance);
     let worth = match worth {
         report::Worth::Certified { certificate, stages } => {
             let certificate = Certificate { blake3: table.hash(request.precision)?, ..certificate };

@@ -81,6 +81,13 @@ impl ScaleBias {
         f0 * self.a + self.b
     }
 
+    /// Whether [`ScaleBias::mirror`] is exact in f64: n·v is a multiple of 1/1024, and of 1/128 where the limit is its square, so
+    /// that no product has more than 53 bits. Only such values can lie on a boundary of rounding.
+    pub fn mirror_is_exact(mu: f64, limit: f64) -> bool {
+        let steps = if limit == 1.0 { 1024.0 } else { 128.0 };
+        (mu * steps).fract() == 0.0
+    }
+
     /// The limit α → 0 at fixed n·v: a perfect mirror, times `limit` ([`crate::model::Microfacet::smooth_limit`]).
     pub fn mirror(mu: f64, limit: f64) -> Self {
         let b = schlick_weight(mu);

@@ -173,14 +173,13 @@ impl Grid {
     }
 
     /// The table with these values, as many for each point as there are `channels`, in the order of the points.
-    pub fn table(&self, channels: &[Channel], (x, y): (Axis, Axis), values: &[f64], provenance: Provenance) -> Table {
+    pub fn table(&self, channels: &[Channel], (x, y): (Axis, Axis), values: Vec<f64>, provenance: Provenance) -> Table {
         let (n, width) = (channels.len(), self.mus.len());
-        let mut rows = Vec::with_capacity(values.len());
-        for texel in 0..self.len() {
-            let (i, j) = (texel % x.size, texel / x.size);
-            let point = if self.transposed { i * width + j } else { texel };
-            rows.extend_from_slice(&values[point * n..][..n]);
-        }
+        let transpose = || {
+            let points = (0..self.len()).map(|texel| texel % x.size * width + texel / x.size);
+            points.flat_map(|point| &values[point * n..][..n]).copied().collect()
+        };
+        let rows = if self.transposed { transpose() } else { values };
         Table { x, y, channels: channels.to_vec(), values: rows, provenance }
     }
 }

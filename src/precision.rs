@@ -77,7 +77,8 @@ impl Precision {
         let above = (steps - steps.floor() - 0.5).abs() * step;
         // Just above a power of two the boundary below is that of the smaller binade.
         let floats = matches!(self, Precision::F16 | Precision::F32);
-        let first = floats && steps.floor().log2().fract() == 0.0 && steps >= 1024.0;
+        let power_of_two = steps.floor().to_bits().trailing_zeros() >= 52;
+        let first = floats && power_of_two && steps >= 1024.0;
         if first { above.min((steps - steps.floor() + 0.25) * step) } else { above }
     }
 

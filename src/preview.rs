@@ -94,7 +94,7 @@ impl Row {
         let grid = request.grid()?;
         let rule = Rule::for_cpu(lobe, Precision::F16.default_tolerance(), grid.len()).unwrap_or(REFERENCE);
         let values: Vec<f64> = cpu::bake(lobe, &grid, &rule, &|_| ()).iter().flat_map(|v| [v.a, v.b]).collect();
-        let table = grid.table(lut.channels(), (request.x, request.y), &values, lut.provenance());
+        let table = grid.table(lut.channels(), (request.x, request.y), values, lut.provenance());
         let column = |&r: &f64| PerceptualRoughness::new(r).map(|r| Column::new(lobe.ndf, r));
         Ok(Row { lobe, scene, columns: ROUGHNESSES.iter().map(column).collect::<Result<_>>()?, table })
     }

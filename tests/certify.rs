@@ -93,6 +93,18 @@ fn stages_do_not_change_a_value_and_the_reference_sees_the_same_texels() {
     }
 }
 
+#[test]
+fn exact_ties_of_a_mirror_go_to_even() {
+    // (1-n.v)^5 = 3125/2^25 at n.v = 1 - 5/32: twelve bits, the last of which is half a step.
+    let (lut, grid) = (ab(ggx(Masking::HeightCorrelated)), grid("nov,edges", "roughness,edges", 65));
+    let certified = certify(&task(&lut, &grid, Precision::F16), None, &|_| ()).unwrap();
+    assert_eq!(certified.certificate.undecided, 0);
+    let texel = grid.mus.iter().position(|&mu| mu == 1.0 - 5.0 / 32.0).unwrap();
+    let tie = 3125.0 / 2f64.powi(25);
+    let steps = certified.values[2 * texel + 1] / splitsum::half::step(tie);
+    assert_eq!((Precision::F16.distance_to_boundary(tie), steps % 2.0), (0.0, 0.0));
+}
+
 /// The failure of certification when a good device's table is spoiled.
 fn found_out(lobe: Microfacet, spoil: fn(&mut [ScaleBias])) -> Option<Error> {
     let (lut, grid, rule) = (ab(lobe), grid("nov", "roughness", 64), Rule::named("h640").unwrap());

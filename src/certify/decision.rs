@@ -40,8 +40,8 @@ impl Task<'_> {
         let mut decided = true;
         for (channel, stored) in values.iter_mut().enumerate() {
             let (low, high) = (one[channel].min(other[channel]), one[channel].max(other[channel]));
-            // The channels' own arithmetic may err by a few units in the last place.
-            let slack = ROUNDING * high.abs();
+            // The arithmetic of a family's channels may err by a few units in the last place.
+            let slack = if matches!(self.lut, Lut::Energy(_)) { ROUNDING * high.abs() } else { 0.0 };
             let (low, high) = (self.precision.nearest(low - slack), self.precision.nearest(high + slack));
             decided &= low == high;
             // Adding 0 makes 0 of -0: no albedo is negative, though an estimate of a tiny one may be.

@@ -90,10 +90,11 @@ impl SurrogateRule {
         rows.flat_map(|root| {
             let alpha = root * root * root * root;
             let end = compressed(1.0 / alpha, self.power);
-            let (c, q) = if self.power == Power::Four { (16.0, 4) } else { (8.0, 2) };
+            let c = if self.power == Power::Four { 16.0 } else { 8.0 };
             (0..self.directions).map(move |i| {
-                let s = chebyshev_node(i, self.directions);
-                let y = libm::sinh(c * libm::atanh(end * s.powi(q)));
+                let s2 = chebyshev_node(i, self.directions) * chebyshev_node(i, self.directions);
+                let root = if self.power == Power::Four { s2 * s2 } else { s2 };
+                let y = libm::sinh(c * libm::atanh(end * root));
                 ((alpha * y).min(1.0), alpha)
             })
         })
