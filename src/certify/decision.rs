@@ -50,6 +50,14 @@ impl Task<'_> {
         decided
     }
 
+    /// The stored `values` of a texel from its integral and its row's average.
+    #[inline]
+    pub(super) fn store(&self, mu: f64, integral: ScaleBias, average: ScaleBias, values: &mut [f64]) {
+        for (stored, value) in values.iter_mut().zip(self.lut.values(mu, integral, average)) {
+            *stored = self.precision.nearest(value) + 0.0;
+        }
+    }
+
     /// How near the nearest of a texel's values is to a boundary of rounding.
     pub(super) fn distance_to_boundary(&self, mu: f64, integral: ScaleBias, average: ScaleBias) -> f64 {
         let values = self.lut.values(mu, integral, average).into_iter().take(self.lut.channels().len());

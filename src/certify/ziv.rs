@@ -194,18 +194,19 @@ impl Run<'_> {
             _ => rule.errors_at(integrand, alpha, value),
         };
         let margin = self.margin.filter(|_| finer > 1);
-        let open: Vec<usize> = (0..texels.len()).filter(|&place| self.open[texels.get(place)]).collect();
+        let asked = self.open.iter().filter(|&&open| open).count();
+        let open = if rule.name == REFERENCE.name { self.open.clone() } else { Vec::new() };
         let decided = self.decide(&texels, &integrals, &averages, margin, &errors_at);
         if rule.name == REFERENCE.name {
-            let distance = |&place: &usize| {
+            let distance = |(place, &integral): (usize, &ScaleBias)| {
                 let texel = texels.get(place);
                 let average = averages[texel / grid.mus.len()].0;
-                let distance = self.task.distance_to_boundary(grid.point(texel).0, integrals[place], average);
-                (!self.open[texel]).then_some(distance)
+                let distance = self.task.distance_to_boundary(grid.point(texel).0, integral, average);
+                (open[texel] && !self.open[texel]).then_some(distance)
             };
-            self.smallest_distance = open.iter().filter_map(distance).min_by(f64::total_cmp);
+            self.smallest_distance = integrals.iter().enumerate().filter_map(distance).min_by(f64::total_cmp);
         }
-        self.stages.push(self.summary(format!("CPU f64, {}", rule.name), rule, false, open.len(), decided));
+        self.stages.push(self.summary(format!("CPU f64, {}", rule.name), rule, false, asked, decided));
         self.seen = Some(Seen { rule: *rule, texels, integrals });
         Ok(())
     }
@@ -289,16 +290,21 @@ impl Run<'_> {
         errors_at: &(dyn Fn(f64, f64, ScaleBias) -> ScaleBias + Sync),
     ) -> usize {
         let (channels, task, rounds, integrand) = (self.channels, self.task, self.rounds_correctly(), self.integrand());
-        let width = task.grid.mus.len();
-        let decide = |texel: usize, value: ScaleBias, values: &mut [f64], open: &mut bool| {
-            let (mu, alpha) = task.grid.point(texel);
+        let Grid { mus, alphas, .. } = task.grid;
+        let decide = |(row, column): (usize, usize), value: ScaleBias, values: &mut [f64], open: &mut bool| {
+            let (mu, alpha, average) = (mus[column], alphas[row], averages[row]);
+            if !rounds {
+                task.store(mu, value, average.0, values);
+                return 0;
+            }
             let mut errors = errors_at(mu, alpha, value);
             if let Some(margin) = &margin {
                 errors.add(2.0, margin.errors_at(integrand, alpha, value));
             }
-            *open = !(task.decide(mu, (value, errors), averages[texel / width], values) && rounds);
+            *open = !task.decide(mu, (value, errors), average, values);
             usize::from(!*open)
         };
+        let width = mus.len();
         match texels {
             Texels::All(_) => {
                 let rows = self.values.par_chunks_mut(channels * width).zip(self.open.par_chunks_mut(width));
@@ -306,8 +312,7 @@ impl Run<'_> {
                     rows.zip(integrals.par_chunks(width)).enumerate().map(|(row, ((values, open), integrals))| {
                         let texels = values.chunks_exact_mut(channels).zip(open).zip(integrals).enumerate();
                         let open = texels.filter(|(_, ((_, open), _))| **open);
-                        open.map(|(i, ((values, open), &value))| decide(row * width + i, value, values, open))
-                            .sum::<usize>()
+                        open.map(|(i, ((values, open), &value))| decide((row, i), value, values, open)).sum::<usize>()
                     });
                 decided.sum()
             }
@@ -316,7 +321,8 @@ impl Run<'_> {
                 for (&texel, &value) in texels.iter().zip(integrals) {
                     let open = &mut self.open[texel];
                     if *open {
-                        count += decide(texel, value, &mut self.values[texel * channels..][..channels], open);
+                        let values = &mut self.values[texel * channels..][..channels];
+                        count += decide((texel / width, texel % width), value, values, open);
                     }
                 }
                 count
