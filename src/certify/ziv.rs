@@ -345,7 +345,8 @@ impl Run<'_> {
         let by_reference =
             self.stages.iter().filter(|stage| stage.by.ends_with(REFERENCE.name)).map(|s| s.decided).sum();
         let half_step = self.task.precision.half_step();
-        let reference_error = rules.last().map_or(0.0, |rule| rule.bound(self.integrand()));
+        let averages = if self.task.lut.needs_averages() { average_error(self.integrand()) } else { 0.0 };
+        let reference_error = rules.last().map_or(0.0, |rule| rule.bound(self.integrand())).max(averages);
         let rounds = self.rounds_correctly();
         let error = if rounds { reference_error } else { rules[0].bound(self.integrand()) };
         let promise = if undecided == 0 {
