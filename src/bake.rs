@@ -7,7 +7,7 @@ use crate::certify::decision::Task;
 use crate::certify::deviation::{self, Deviation};
 use crate::certify::ziv::{self, Certified, DeviceTable};
 use crate::error::{Complaint, Error, Result};
-use crate::integrate::average::{average, average_nodes};
+use crate::integrate::average::{average_nodes, averages};
 use crate::integrate::h_space::HSpaceRule;
 use crate::integrate::rule::{Method, Rule, f32_arithmetic};
 use crate::integrate::{Integrand, ScaleBias};
@@ -31,13 +31,19 @@ pub struct Baked {
 /// Bakes a table. It has passed its checks when it comes back: see [`crate::certify`].
 pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<Baked> {
     let grid = request.grid()?;
-    let chosen = backend.choose(device_rule(request).err(), seconds_saved(request, &grid))?;
-    let job = Job { request, grid: &grid, gpu: chosen.gpu, progress };
-    let Outcome { values, worth, seconds, device_seconds } = match request.accuracy {
-        Accuracy::Certified(_) => job.certified()?,
-        Accuracy::Tolerance(_) | Accuracy::Rule(_) => job.uncertified()?,
+    let (rule, obstacle) = match device_rule(request) {
+        Ok(rule) => (Some(rule), None),
+        Err(obstacle) => (None, Some(obstacle)),
     };
-    let Chosen { gpu, reason } = chosen;
+    let Chosen { gpu, reason } = backend.choose(obstacle, seconds_saved(request, &grid))?;
+    let job = Job { request, grid: &grid, device: gpu.zip(rule), progress };
+    let Outcome { values, worth, seconds, device_seconds } = match request.accuracy {
+        Accuracy::Certified(tolerance) => job.certified(tolerance)?,
+        Accuracy::Tolerance(tolerance) => {
+            job.uncertified(Rule::for_cpu(request.lut.integrand(), tolerance, grid.len()))?
+        }
+        Accuracy::Rule(rule) => job.uncertified(Some(rule))?,
+    };
     let computed = match gpu {
         None => Computed::Cpu { reason },
         Some(gpu) => Computed::Vulkan { device: gpu.info().clone(), reason, device_seconds },
@@ -75,7 +81,8 @@ pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<
 struct Job<'a> {
     request: &'a Request,
     grid: &'a Grid,
-    gpu: Option<&'a Gpu>,
+    /// A device and the rule by which it integrates; `None` computes on the CPU.
+    device: Option<(&'a Gpu, Rule)>,
     progress: Progress<'a>,
 }
 
@@ -91,15 +98,12 @@ struct Outcome {
 
 impl Job<'_> {
     /// A table certified value by value.
-    fn certified(&self) -> Result<Outcome> {
+    fn certified(&self, tolerance: f64) -> Result<Outcome> {
+        let Job { request, grid, progress, .. } = *self;
         let start = Instant::now();
-        let rule = device_rule(self.request).ok();
-        let device = match (self.gpu, &rule) {
-            (Some(gpu), Some(rule)) => {
-                let integrand = self.request.lut.integrand();
-                Some((gpu, rule, on_device(gpu, integrand, self.grid, rule, self.progress)?))
-            }
-            _ => None,
+        let device = match &self.device {
+            Some((gpu, rule)) => Some((gpu, rule, on_device(gpu, request.lut.integrand(), grid, rule, progress)?)),
+            None => None,
         };
         let integrate = start.elapsed().as_secs_f64();
         let table = device.as_ref().map(|(gpu, rule, baked)| DeviceTable {
@@ -108,8 +112,8 @@ impl Job<'_> {
             name: &gpu.info().name,
         });
         let start = Instant::now();
-        let progress = if device.is_some() { &|_| () } else { self.progress };
-        let Certified { values, certificate, stages } = ziv::certify(&task(self.request, self.grid), table, progress)?;
+        let progress = if device.is_some() { &|_| () } else { progress };
+        let Certified { values, certificate, stages } = ziv::certify(&task(request, grid, tolerance), table, progress)?;
         Ok(Outcome {
             values,
             worth: report::Worth::Certified { certificate, stages },
@@ -121,29 +125,22 @@ impl Job<'_> {
         })
     }
 
-    /// A table by one rule, checked on a sample.
-    fn uncertified(&self) -> Result<Outcome> {
-        let Job { request, grid, gpu, .. } = *self;
+    /// A table by one rule, `on_cpu` where no device computes it, checked on a sample.
+    fn uncertified(&self, on_cpu: Option<Rule>) -> Result<Outcome> {
+        let Job { request, grid, device, progress } = *self;
         let integrand = request.lut.integrand();
         // The rules' bounds are rounded up by far more than f64 adds.
-        let arithmetic = if gpu.is_some() { f32_arithmetic(integrand) } else { 0.0 };
-        let rule = match (request.accuracy, gpu) {
-            (Accuracy::Rule(rule), _) => Some(rule),
-            (Accuracy::Tolerance(tolerance) | Accuracy::Certified(tolerance), Some(_)) => {
-                Rule::for_device(integrand, tolerance)
-            }
-            (Accuracy::Tolerance(tolerance) | Accuracy::Certified(tolerance), None) => {
-                Rule::for_cpu(integrand, tolerance, grid.len())
-            }
+        let (gpu, rule, arithmetic) = match device {
+            Some((gpu, rule)) => (Some(gpu), Some(rule), f32_arithmetic(integrand)),
+            None => (None, on_cpu, 0.0),
         };
         let rule = rule.ok_or_else(|| Error::Internal("no rule for this tolerance".into()))?;
         let mut integration = Integration { integrand, rule, arithmetic, gpu, checked: Checked::default() };
-        let points = integration.over(grid, self.progress)?;
+        let points = integration.over(grid, progress)?;
         let averages = if request.lut.needs_averages() {
             let nodes = average_nodes();
             let directions = grid.at_directions(nodes.iter().map(|node| node.0).collect());
-            let rows = integration.over(&directions, &|_| ())?;
-            rows.chunks(nodes.len()).map(|row| average(&nodes, row)).collect()
+            averages(&nodes, &integration.over(&directions, &|_| ())?)
         } else {
             vec![ScaleBias::default(); grid.alphas.len()]
         };
@@ -231,11 +228,7 @@ fn on_device(
     vulkan::bake::bake(gpu, integrand, grid, &nodes, progress)
 }
 
-fn task<'a>(request: &'a Request, grid: &'a Grid) -> Task<'a> {
-    let tolerance = match request.accuracy {
-        Accuracy::Certified(tolerance) => tolerance,
-        _ => request.precision.default_tolerance(),
-    };
+fn task<'a>(request: &'a Request, grid: &'a Grid, tolerance: f64) -> Task<'a> {
     Task { lut: &request.lut, grid, precision: request.precision, tolerance }
 }
 
@@ -279,7 +272,7 @@ fn seconds_saved(request: &Request, grid: &Grid) -> f64 {
         Accuracy::Tolerance(tolerance) => Rule::for_cpu(integrand, tolerance, texels).as_ref().map_or(0.0, whole),
         // Values in f32 are the CPU's, whoever computes them too; and a surrogate checks every texel of a device.
         Accuracy::Certified(_) if request.precision == Precision::F32 => 0.0,
-        Accuracy::Certified(_) => match ziv::stages(&task(request, grid)).first() {
+        Accuracy::Certified(tolerance) => match ziv::stages(&task(request, grid, tolerance)).first() {
             Some(first) if !matches!(first.method, Method::Surrogate(_)) => LEFT_TO_DEVICE * whole(first),
             _ => 0.0,
         },

@@ -5,7 +5,7 @@
 use crate::backend::cpu;
 use crate::error::{Error, Result};
 use crate::integrate::ScaleBias;
-use crate::integrate::average::{average, average_nodes};
+use crate::integrate::average::{average_nodes, averages};
 use crate::integrate::rule::Rule;
 use crate::lut::Grid;
 use crate::lut::energy::check_leaves_energy;
@@ -117,7 +117,7 @@ pub fn furnaces(material: Material, f0s: &[f64], splits: &[Split], grid: &Grid, 
         cpu::bake(lobe, &directions, rule, &|_| ())
     };
     let (averaging_rows, light_rows) = (over(&averaging), over(&light));
-    let averages: Vec<ScaleBias> = averaging_rows.chunks(averaging.len()).map(|row| average(&averaging, row)).collect();
+    let averages = averages(&averaging, &averaging_rows);
     let furnace = |(f0, split)| {
         let specular = |integral, row: usize| material.multiple_scattering.albedo(f0, integral, averages[row]);
         // For each α: 1 - S_avg as the shader has it, and the ∫ (1-S(l)) 2 μ dμ that it should cancel.

@@ -98,14 +98,6 @@ impl Report {
             Worth::Uncertified { .. } => None,
         }
     }
-
-    /// What is known of a table that is not certified.
-    pub fn accuracy(&self) -> Option<&Accuracy> {
-        match &self.worth {
-            Worth::Certified { .. } => None,
-            Worth::Uncertified { accuracy } => Some(accuracy),
-        }
-    }
 }
 
 impl fmt::Display for Computed {

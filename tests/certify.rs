@@ -133,13 +133,14 @@ fn a_device_that_errs_beyond_its_bound_is_found_out() {
         }
     }
     // Where a surrogate checks every texel, a single one is enough.
-    for texel in [0, 777, 1234, 4095] {
-        let error = match texel {
-            0 => found_out(covered, |table| table[0].a += 1e-5),
-            777 => found_out(covered, |table| table[777].b -= 1e-5),
-            1234 => found_out(covered, |table| table[1234].a -= 1e-5),
-            _ => found_out(covered, |table| table[4095].b += 1e-5),
-        };
+    let wrong_texels: [fn(&mut [ScaleBias]); 4] = [
+        |table| table[0].a += 1e-5,
+        |table| table[777].b -= 1e-5,
+        |table| table[1234].a -= 1e-5,
+        |table| table[4095].b += 1e-5,
+    ];
+    for (texel, wrong) in wrong_texels.into_iter().enumerate() {
+        let error = found_out(covered, wrong);
         let text = error.unwrap_or_else(|| panic!("a wrong texel {texel} passed")).to_string();
         assert!(text.contains("a device") && text.contains("farther apart"), "{text}");
     }

@@ -25,40 +25,31 @@ pub fn bake(integrand: impl Into<Integrand>, grid: &Grid, rule: &Rule, progress:
             });
             integrals
         }
-        _ => integrate(integrand, rule, grid.len(), &|index| grid.point(index), progress),
+        _ => integrate(integrand, &rule.integrator(), grid.len(), &|index| grid.point(index), progress),
     }
 }
 
 /// (A, B) at the named points of the grid.
 pub fn bake_at(integrand: impl Into<Integrand>, grid: &Grid, rule: &Rule, indices: &[usize]) -> Vec<ScaleBias> {
-    let integrand = integrand.into();
-    let Method::Surrogate(surrogate) = rule.method else {
-        return integrate(integrand, rule, indices.len(), &|i| grid.point(indices[i]), &|_| ());
-    };
-    let interpolation = Interpolation::new(integrand, &surrogate, rule);
-    let rows: Vec<&[usize]> = indices.chunk_by(|a, b| a / grid.mus.len() == b / grid.mus.len()).collect();
-    let row = |texels: &&[usize]| {
-        let mus: Vec<f64> = texels.iter().map(|&texel| grid.point(texel).0).collect();
-        let mut integrals = vec![ScaleBias::default(); mus.len()];
-        interpolation.row(grid.point(texels[0]).1, &mus, &mut integrals);
-        integrals
-    };
-    rows.par_iter().flat_map_iter(row).collect()
+    let points: Vec<(f64, f64)> = indices.iter().map(|&index| grid.point(index)).collect();
+    bake_points(integrand, &points, rule)
 }
 
 /// (A, B) at these (n·v, α).
 pub fn bake_points(integrand: impl Into<Integrand>, points: &[(f64, f64)], rule: &Rule) -> Vec<ScaleBias> {
     let integrand = integrand.into();
     let Method::Surrogate(surrogate) = rule.method else {
-        return integrate(integrand, rule, points.len(), &|i| points[i], &|_| ());
+        return integrate(integrand, &rule.integrator(), points.len(), &|i| points[i], &|_| ());
     };
     let interpolation = Interpolation::new(integrand, &surrogate, rule);
-    let point = |&(mu, alpha): &(f64, f64)| {
-        let mut integral = [ScaleBias::default()];
-        interpolation.row(alpha, &[mu], &mut integral);
-        integral[0]
+    let rows: Vec<&[(f64, f64)]> = points.chunk_by(|a, b| a.1 == b.1).collect();
+    let row = |points: &&[(f64, f64)]| {
+        let mus: Vec<f64> = points.iter().map(|point| point.0).collect();
+        let mut integrals = vec![ScaleBias::default(); mus.len()];
+        interpolation.row(points[0].1, &mus, &mut integrals);
+        integrals
     };
-    points.par_iter().map(point).collect()
+    rows.par_iter().flat_map_iter(row).collect()
 }
 
 /// A surrogate, and what integrates where it does not reach.
@@ -71,9 +62,9 @@ struct Interpolation {
 
 impl Interpolation {
     fn new(integrand: Integrand, rule: &SurrogateRule, source: &Rule) -> Self {
-        let points = rule.points();
-        let surrogate = rule.fit(&points, &integrate(integrand, source, points.len(), &|i| points[i], &|_| ()));
-        Interpolation { integrand, rule: *rule, surrogate, source: source.integrator() }
+        let (points, source) = (rule.points(), source.integrator());
+        let surrogate = rule.fit(&points, &integrate(integrand, &source, points.len(), &|i| points[i], &|_| ()));
+        Interpolation { integrand, rule: *rule, surrogate, source }
     }
 
     /// (A, B) at these n·v.
@@ -81,11 +72,7 @@ impl Interpolation {
         if self.rule.covers(alpha) {
             return vectorised(Row { surrogate: &self.surrogate, alpha, mus, texels });
         }
-        for (mus, texels) in mus.chunks(WIDTH).zip(texels.chunks_mut(WIDTH)) {
-            let points = std::array::from_fn(|i| (mus[i.min(mus.len() - 1)], alpha));
-            let values = vectorised(Group { integrator: &self.source, integrand: self.integrand, points });
-            texels.copy_from_slice(&values[..texels.len()]);
-        }
+        in_groups(self.integrand, &self.source, |i| (mus[i], alpha), texels);
     }
 }
 
@@ -116,20 +103,34 @@ impl pulp::NullaryFnOnce for Row<'_> {
 
 type Point<'a> = &'a (dyn Fn(usize) -> (f64, f64) + Sync);
 
-fn integrate(integrand: Integrand, rule: &Rule, count: usize, point: Point, progress: Progress) -> Vec<ScaleBias> {
-    let integrator = rule.integrator();
+fn integrate(
+    integrand: Integrand,
+    integrator: &Integrator,
+    count: usize,
+    point: Point,
+    progress: Progress,
+) -> Vec<ScaleBias> {
     let mut integrals = vec![ScaleBias::default(); count];
     integrals.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, texels)| {
-        for (group, texels) in texels.chunks_mut(WIDTH).enumerate() {
-            let first = chunk * CHUNK + group * WIDTH;
-            // A group that is not full repeats its last point.
-            let points = std::array::from_fn(|i| point((first + i).min(count - 1)));
-            let values = vectorised(Group { integrator: &integrator, integrand, points });
-            texels.copy_from_slice(&values[..texels.len()]);
-        }
+        in_groups(integrand, integrator, |i| point(chunk * CHUNK + i), texels);
         progress(texels.len());
     });
     integrals
+}
+
+/// Integrates at `point(0)` and on, as many lanes at a time as there are; a group that is not full repeats its last point.
+fn in_groups(
+    integrand: Integrand,
+    integrator: &Integrator,
+    point: impl Fn(usize) -> (f64, f64),
+    texels: &mut [ScaleBias],
+) {
+    let last = texels.len() - 1;
+    for (group, texels) in texels.chunks_mut(WIDTH).enumerate() {
+        let points = std::array::from_fn(|i| point((group * WIDTH + i).min(last)));
+        let values = vectorised(Group { integrator, integrand, points });
+        texels.copy_from_slice(&values[..texels.len()]);
+    }
 }
 
 /// As many points as there are lanes.

@@ -4,6 +4,11 @@ use crate::integrate::ScaleBias;
 use crate::lut::{Grid, Lut};
 use crate::precision::Precision;
 
+/// The same, but 0 for -0: no albedo is negative, though an estimate of a tiny one may be.
+fn unsigned(value: f64) -> f64 {
+    value + 0.0
+}
+
 /// What the arithmetic of channels may err, relative: eight units in the last place.
 const ROUNDING: f64 = 2e-15;
 
@@ -44,8 +49,10 @@ impl Task<'_> {
             let slack = if matches!(self.lut, Lut::Energy(_)) { ROUNDING * high.abs() } else { 0.0 };
             let (low, high) = (self.precision.nearest(low - slack), self.precision.nearest(high + slack));
             decided &= low == high;
-            // Adding 0 makes 0 of -0: no albedo is negative, though an estimate of a tiny one may be.
-            *stored = if low == high { low } else { self.precision.nearest(at(0.0)[channel]) } + 0.0;
+            *stored = unsigned(low);
+        }
+        if !decided {
+            self.store(mu, integral, average, values);
         }
         decided
     }
@@ -54,7 +61,7 @@ impl Task<'_> {
     #[inline]
     pub(super) fn store(&self, mu: f64, integral: ScaleBias, average: ScaleBias, values: &mut [f64]) {
         for (stored, value) in values.iter_mut().zip(self.lut.values(mu, integral, average)) {
-            *stored = self.precision.nearest(value) + 0.0;
+            *stored = unsigned(self.precision.nearest(value));
         }
     }
 

@@ -11,7 +11,7 @@ use super::deviation::{check_range, sample, scatter};
 use crate::backend::{Progress, cpu};
 use crate::certificate::{Certificate, Stage};
 use crate::error::{Error, Result};
-use crate::integrate::average::{average, average_error, average_nodes};
+use crate::integrate::average::{average_error, average_nodes, averages as row_averages};
 use crate::integrate::rule::{Method, REFERENCE, Rule};
 use crate::integrate::{Integrand, ScaleBias};
 use crate::lut::Grid;
@@ -79,6 +79,7 @@ pub fn certify(task: &Task, device: Option<DeviceTable>, progress: Progress) -> 
         open: vec![true; texels],
         seen: None,
         stages: Vec::new(),
+        decided_by_reference: 0,
         smallest_distance: None,
     };
     run.values = vec![0.0; texels * run.channels];
@@ -105,6 +106,7 @@ struct Run<'a> {
     open: Vec<bool>,
     seen: Option<Seen>,
     stages: Vec<Stage>,
+    decided_by_reference: usize,
     smallest_distance: Option<f64>,
 }
 
@@ -146,6 +148,16 @@ impl Texels {
     }
 }
 
+/// What a stage's A and B may be off at (n·v, α) where it gives this value.
+type ErrorsAt<'a> = dyn Fn(f64, f64, ScaleBias) -> ScaleBias + Sync + 'a;
+
+fn summary(by: String, errors_at: &ErrorsAt, texels: usize, decided: usize) -> Stage {
+    // At α = 1, above the roughness below which Charlie's bounds are others.
+    let errors = |b: f64| errors_at(1.0, 1.0, ScaleBias { a: 0.0, b });
+    let decades = [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
+    Stage { by, error_of_a: errors(1.0).a, error_of_b: decades.map(|b| errors(b).b), texels, decided }
+}
+
 impl Run<'_> {
     fn integrand(&self) -> Integrand {
         self.task.lut.integrand()
@@ -163,15 +175,15 @@ impl Run<'_> {
         let integrand = self.integrand();
         check_range(integrand, self.task.grid, rule, points)?;
         let texels = Texels::All(self.open.len());
+        let errors_at = |_, alpha, value| rule.device_errors_at(integrand, alpha, value);
         // Steps of f32 are finer than a device is exact.
         let decided = if self.task.precision == Precision::F32 {
             0
         } else {
             let averages = self.averages(averaging, &texels);
-            let errors_at = |_, alpha, value| rule.device_errors_at(integrand, alpha, value);
             self.decide(&texels, points, &averages, self.margin, &errors_at)
         };
-        self.stages.push(self.summary(format!("{name}, {}", rule.name), rule, true, self.open.len(), decided));
+        self.stages.push(summary(format!("{name}, {}", rule.name), &errors_at, self.open.len(), decided));
         Ok(())
     }
 
@@ -198,6 +210,7 @@ impl Run<'_> {
         let open = if rule.name == REFERENCE.name { self.open.clone() } else { Vec::new() };
         let decided = self.decide(&texels, &integrals, &averages, margin, &errors_at);
         if rule.name == REFERENCE.name {
+            self.decided_by_reference = decided;
             let distance = |(place, &integral): (usize, &ScaleBias)| {
                 let texel = texels.get(place);
                 let average = averages[texel / grid.mus.len()].0;
@@ -206,7 +219,7 @@ impl Run<'_> {
             };
             self.smallest_distance = integrals.iter().enumerate().filter_map(distance).min_by(f64::total_cmp);
         }
-        self.stages.push(self.summary(format!("CPU f64, {}", rule.name), rule, false, asked, decided));
+        self.stages.push(summary(format!("CPU f64, {}", rule.name), &errors_at, asked, decided));
         self.seen = Some(Seen { rule: *rule, texels, integrals });
         Ok(())
     }
@@ -269,8 +282,7 @@ impl Run<'_> {
             let alphas = rows.iter().map(|&row| grid.alphas[row]).collect();
             let directions = Grid::of(nodes.iter().map(|node| node.0).collect(), alphas);
             let integrals = cpu::bake(self.integrand(), &directions, rule, &|_| ());
-            for (integrals, &row) in integrals.chunks(nodes.len()).zip(&rows) {
-                let average = average(&nodes, integrals);
+            for (average, row) in row_averages(&nodes, &integrals).into_iter().zip(rows) {
                 let mut errors = rule.errors_at(self.integrand(), grid.alphas[row], average);
                 let quadrature = average_error(self.integrand());
                 errors.add(1.0, ScaleBias { a: quadrature, b: quadrature });
@@ -287,7 +299,7 @@ impl Run<'_> {
         integrals: &[ScaleBias],
         averages: &[(ScaleBias, ScaleBias)],
         margin: Option<Rule>,
-        errors_at: &(dyn Fn(f64, f64, ScaleBias) -> ScaleBias + Sync),
+        errors_at: &ErrorsAt,
     ) -> usize {
         let (channels, task, rounds, integrand) = (self.channels, self.task, self.rounds_correctly(), self.integrand());
         let Grid { mus, alphas, .. } = task.grid;
@@ -330,20 +342,8 @@ impl Run<'_> {
         }
     }
 
-    fn summary(&self, by: String, rule: &Rule, device: bool, texels: usize, decided: usize) -> Stage {
-        // Above the roughness below which Charlie's bounds are others.
-        let errors = |b: f64| match device {
-            true => rule.device_errors_at(self.integrand(), 1.0, ScaleBias { a: 0.0, b }),
-            false => rule.errors_at(self.integrand(), 1.0, ScaleBias { a: 0.0, b }),
-        };
-        let decades = [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
-        Stage { by, error_of_a: errors(1.0).a, error_of_b: decades.map(|b| errors(b).b), texels, decided }
-    }
-
     fn finish(self, rules: &[Rule]) -> Certified {
         let (texels, undecided) = (self.open.len(), self.open.iter().filter(|&&open| open).count());
-        let by_reference =
-            self.stages.iter().filter(|stage| stage.by.ends_with(REFERENCE.name)).map(|s| s.decided).sum();
         let half_step = self.task.precision.half_step();
         let averages = if self.task.lut.needs_averages() { average_error(self.integrand()) } else { 0.0 };
         let reference_error = rules.last().map_or(0.0, |rule| rule.bound(self.integrand())).max(averages);
@@ -365,8 +365,8 @@ impl Run<'_> {
             promise,
             bound: half_step + if undecided == 0 { 0.0 } else { error },
             texels,
-            decided_before_reference: texels - undecided - by_reference,
-            decided_by_reference: by_reference,
+            decided_before_reference: texels - undecided - self.decided_by_reference,
+            decided_by_reference: self.decided_by_reference,
             undecided,
             reference_error,
             smallest_distance: self.smallest_distance,

@@ -31,9 +31,12 @@ pub fn average_error(integrand: Integrand) -> f64 {
     }
 }
 
-/// The average of integrals given at the directions of [`average_nodes`].
-pub fn average(nodes: &[(f64, f64)], integrals: &[ScaleBias]) -> ScaleBias {
-    let mut sum = ScaleBias::default();
-    nodes.iter().zip(integrals).for_each(|(&(_, weight), &integral)| sum.add(weight, integral));
-    sum
+/// The average of each row of integrals given at the directions of [`average_nodes`].
+pub fn averages(nodes: &[(f64, f64)], rows: &[ScaleBias]) -> Vec<ScaleBias> {
+    let average = |row: &[ScaleBias]| {
+        let mut sum = ScaleBias::default();
+        nodes.iter().zip(row).for_each(|(&(_, weight), &integral)| sum.add(weight, integral));
+        sum
+    };
+    rows.chunks(nodes.len()).map(average).collect()
 }
