@@ -1,6 +1,7 @@
 //! Who computes: the CPU in f64, or a Vulkan device in f32. Backends see parameters and give numbers; they know no files.
 
 pub mod cpu;
+pub mod rows;
 pub mod shader;
 pub mod vulkan;
 

@@ -1,6 +1,7 @@
-//! Eight numbers side by side: the formulas are written once, for one f64 or for eight texels in a CPU's vector registers.
+//! Numbers side by side: the formulas are written once, for one f64, for eight texels in a CPU's vector registers, or for sixteen
+//! in f32.
 //!
-//! Every operation acts on each lane alone and rounds as IEEE 754 says, so that a lane holds the same bits as the f64 would.
+//! Every operation acts on each lane alone and rounds as IEEE 754 says, so that a lane holds the same bits as the scalar would.
 
 use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -8,7 +9,13 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// Lanes side by side: the widest vectors of today's CPUs.
 pub const WIDTH: usize = 8;
 
-/// What the formulas compute with: f64, or [`Lanes`] of them.
+/// Added to a number below 2^51, it leaves its nearest whole number in the low bits.
+pub const SHIFT: f64 = 6_755_399_441_055_744.0;
+
+/// The same for an f32 below 2^22.
+const SHIFT_OF_SINGLES: f32 = 12_582_912.0;
+
+/// What the formulas compute with: f64, [`Lanes`] of them, or f32 in [`Singles`].
 pub trait Real:
     Copy
     + From<f64>
@@ -25,7 +32,10 @@ pub trait Real:
     /// √x
     fn sqrt(self) -> Self;
 
-    /// f(x, y) in every lane; for what has no vector instruction.
+    /// The nearest whole number, for |x| below 2^21.
+    fn nearest_whole(self) -> Self;
+
+    /// f(x, y) in every lane, computed in f64; for what has no vector instruction.
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self;
 
     /// `yes` in the lanes where this is below `limit`, else `no`.
@@ -62,10 +72,27 @@ pub trait Real:
     }
 }
 
+/// Lanes that a loop over texels fills and empties.
+pub trait Vector: Real {
+    /// How many.
+    const LANES: usize;
+
+    /// `f(i)` in lane i.
+    fn gather(f: impl Fn(usize) -> f64) -> Self;
+
+    /// What is in lane i.
+    fn lane(self, i: usize) -> f64;
+}
+
 impl Real for f64 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         self.sqrt()
+    }
+
+    #[inline(always)]
+    fn nearest_whole(self) -> Self {
+        (self + SHIFT) - SHIFT
     }
 
     #[inline(always)]
@@ -79,70 +106,112 @@ impl Real for f64 {
     }
 }
 
-/// Eight f64, aligned for the vector registers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(align(64))]
-pub struct Lanes(pub [f64; WIDTH]);
+macro_rules! lanes {
+    ($(#[$about:meta])* $name:ident, $scalar:ty, $width:expr, $shift:expr) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[repr(align(64))]
+        pub struct $name(pub [$scalar; $width]);
 
-impl Real for Lanes {
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Lanes(from_fn(|i| self.0[i].sqrt()))
-    }
+        impl Real for $name {
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $name(from_fn(|i| self.0[i].sqrt()))
+            }
 
-    #[inline(always)]
-    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        Lanes(from_fn(|i| f(self.0[i], other.0[i])))
-    }
+            #[inline(always)]
+            fn nearest_whole(self) -> Self {
+                $name(from_fn(|i| (self.0[i] + $shift) - $shift))
+            }
 
-    #[inline(always)]
-    fn select_below(self, limit: Self, yes: Self, no: Self) -> Self {
-        Lanes(from_fn(|i| if self.0[i] < limit.0[i] { yes.0[i] } else { no.0[i] }))
-    }
-}
+            #[inline(always)]
+            fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+                $name(from_fn(|i| f(self.0[i].into(), other.0[i].into()) as $scalar))
+            }
 
-impl From<f64> for Lanes {
-    #[inline(always)]
-    fn from(value: f64) -> Self {
-        Lanes([value; WIDTH])
-    }
-}
+            #[inline(always)]
+            fn select_below(self, limit: Self, yes: Self, no: Self) -> Self {
+                $name(from_fn(|i| if self.0[i] < limit.0[i] { yes.0[i] } else { no.0[i] }))
+            }
+        }
 
-impl Neg for Lanes {
-    type Output = Self;
+        impl Vector for $name {
+            const LANES: usize = $width;
 
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Lanes(self.0.map(|x| -x))
-    }
-}
+            #[inline(always)]
+            fn gather(f: impl Fn(usize) -> f64) -> Self {
+                $name(from_fn(|i| f(i) as $scalar))
+            }
 
-macro_rules! lane_by_lane {
-    ($trait:ident, $method:ident, $operator:tt) => {
-        impl $trait for Lanes {
+            #[inline(always)]
+            fn lane(self, i: usize) -> f64 {
+                self.0[i].into()
+            }
+        }
+
+        impl From<f64> for $name {
+            #[inline(always)]
+            fn from(value: f64) -> Self {
+                $name([value as $scalar; $width])
+            }
+        }
+
+        impl Neg for $name {
+            type Output = Self;
+
+            #[inline(always)]
+            fn neg(self) -> Self {
+                $name(from_fn(|i| -self.0[i]))
+            }
+        }
+
+        lanes!($name, $scalar, Add, add, +);
+        lanes!($name, $scalar, Sub, sub, -);
+        lanes!($name, $scalar, Mul, mul, *);
+        lanes!($name, $scalar, Div, div, /);
+    };
+    ($name:ident, $scalar:ty, $trait:ident, $method:ident, $operator:tt) => {
+        impl $trait for $name {
             type Output = Self;
 
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                Lanes(from_fn(|i| self.0[i] $operator other.0[i]))
+                $name(from_fn(|i| self.0[i] $operator other.0[i]))
             }
         }
 
-        impl $trait<f64> for Lanes {
+        impl $trait<f64> for $name {
             type Output = Self;
 
             #[inline(always)]
             fn $method(self, other: f64) -> Self {
-                Lanes(from_fn(|i| self.0[i] $operator other))
+                $name(from_fn(|i| self.0[i] $operator other as $scalar))
             }
         }
     };
 }
 
-lane_by_lane!(Add, add, +);
-lane_by_lane!(Sub, sub, -);
-lane_by_lane!(Mul, mul, *);
-lane_by_lane!(Div, div, /);
+lanes!(
+    /// Eight f64, aligned for the vector registers.
+    Lanes,
+    f64,
+    WIDTH,
+    SHIFT
+);
+lanes!(
+    /// Sixteen f32: what the formulas are worth in single precision, and how fast they are there.
+    Singles,
+    f32,
+    2 * WIDTH,
+    SHIFT_OF_SINGLES
+);
+lanes!(
+    /// One f32.
+    Single,
+    f32,
+    1,
+    SHIFT_OF_SINGLES
+);
 
 /// Runs `work` compiled for the best vector instructions that the CPU has. What it calls has to be inlined into it.
 #[inline(always)]

@@ -17,9 +17,10 @@
 //! - [`certificate`]: what is certified of a table
 //! - [`table`]: values over two axes, bilinear lookup, differences
 //! - [`special`]: the special functions of the models
-//! - [`quadrature`]: Gauss-Legendre, the slope map, double exponential
+//! - [`quadrature`]: Gauss-Legendre, the slope map, double exponential; point sets
 //! - [`model`]: distributions of normals, masking, Fresnel, with their citations
 //! - [`integrate`]: how a lobe becomes (A, B): over half vectors, over light directions, by the reference; the rules
+//! - [`sampling`]: the field's estimators of the same integrals, for comparison
 //! - [`lut`]: what is baked, over which grid, into which channels
 //! - [`request`]: a checked job, which prints itself as the command that repeats it
 //! - [`backend`]: the CPU, the shaders, the Vulkan host
@@ -59,6 +60,7 @@ pub mod special;
 pub mod quadrature;
 pub mod model;
 pub mod integrate;
+pub mod sampling;
 pub mod lut;
 pub mod request;
 pub mod backend;

@@ -2,11 +2,8 @@
 //! of normals take at every evaluation: those are written out, so that they run in vector registers. Their twins on a
 //! device use only + - × ÷, since a driver's own exp and log may be off by dozens of ulps.
 
-use crate::lanes::Real;
+use crate::lanes::{Real, SHIFT};
 use std::f64::consts::{LN_2, LOG2_E, PI, SQRT_2};
-
-/// Added to a number below 2^51, it leaves its nearest whole number in the low bits.
-const SHIFT: f64 = 6_755_399_441_055_744.0;
 
 /// exp(x) for x ≤ 709, within 2 ulps: 2^k e^r with |r| ≤ ln(2)/2, by Taylor's series to r^13, whose rest is 4e-18. 0 below
 /// e^-650, since products with such numbers are subnormal, and slow.
@@ -17,7 +14,7 @@ pub fn exponential<R: Real>(x: R) -> R {
     const REST: f64 = 1.908_214_929_270_587_7e-10;
     let floor = R::from(-650.0);
     let (below, x) = (x, x.most(floor));
-    let k = (x * LOG2_E + SHIFT) - SHIFT;
+    let k = (x * LOG2_E).nearest_whole();
     let r = x - k * HEAD - k * REST;
     let mut sum = r * (1.0 / 13.0) + 1.0;
     for n in (1..13).rev() {
@@ -73,7 +70,7 @@ pub fn log1p_ratio<R: Real>(u: R) -> R {
     for n in (0..11).rev() {
         sum = sum * s2 + 1.0 / f64::from(2 * n + 1);
     }
-    let tiny = R::from(1e-300);
+    let tiny = R::from(1e-30);
     // Both parts divided by u, so that u → 0 has a limit: atanh(s)/u = (s/u) (1 + s²/3 + …).
     let s_by_u = R::from(0.5).select_below(k, near / u.most(tiny), (u + 2.0).recip());
     k * LN_2 / u.most(tiny) + s_by_u * 2.0 * sum

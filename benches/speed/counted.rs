@@ -35,6 +35,10 @@ impl Real for Counted {
         count(Counted(self.0.sqrt()))
     }
 
+    fn nearest_whole(self) -> Self {
+        count(Counted(self.0.nearest_whole()))
+    }
+
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         count(Counted(f(self.0, other.0)))
     }

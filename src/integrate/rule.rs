@@ -333,8 +333,9 @@ impl Integrator {
         })
     }
 
+    /// (A, B) of a specular lobe at α > 0, in whatever arithmetic.
     #[inline(always)]
-    fn quadrature<R: Real>(&self, lobe: Microfacet, mu: R, alpha: R) -> ScaleBias<R> {
+    pub fn quadrature<R: Real>(&self, lobe: Microfacet, mu: R, alpha: R) -> ScaleBias<R> {
         match self {
             Integrator::HSpace(nodes) => h_space(lobe, mu, alpha, nodes),
             Integrator::LSpace(nodes) => l_space(lobe, mu, alpha, nodes),

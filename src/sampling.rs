@@ -1,0 +1,190 @@
+//! The estimators of the field: A and B as the mean of f n·l / pdf over directions drawn at random or by a point set. They
+//! are here to be compared with; bakes use quadrature.
+//!
+//! With x = n·l and n·l V = G/(4 n·v), f n·l / F is D x V. Of the directions that half vectors of the density D n·h, or of the visible
+//! part of it, reflect, D cancels out: what is left of f n·l / (F pdf) is x V times 4 v·h/n·h, or times 2 (μ + μ(1+2Λ(μ))).
+//! Everything is symmetric about the plane of v and n, so that a point's azimuth enters by its cosine alone.
+
+mod bounded_visible;
+mod half_vector;
+mod hemisphere;
+mod spherical_cap;
+pub mod stand_in;
+mod visible;
+
+pub use bounded_visible::bounded_visible_sample;
+pub use half_vector::{HalfVector, half_vector_sample, half_vectors};
+pub use hemisphere::{cosine_sample, uniform_sample};
+pub use spherical_cap::spherical_cap_sample;
+pub use visible::visible_sample;
+
+use crate::integrate::ScaleBias;
+use crate::lanes::Real;
+use crate::model::fresnel::schlick_weight;
+use crate::model::{Microfacet, Ndf};
+use crate::quadrature::point_set::Point;
+use std::f64::consts::{FRAC_1_PI, PI};
+
+/// How a point of the unit square becomes a direction of light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sampler {
+    /// Every direction alike.
+    Uniform,
+    /// By n·l.
+    Cosine,
+    /// Reflected by half vectors with the density D n·h (Walter et al. 2007; Karis 2013): the natural sampler of every
+    /// distribution.
+    HalfVector,
+    /// Reflected by the half vectors that v sees (Heitz 2018): GGX.
+    Visible,
+    /// The same by spherical caps (Dupuy and Benyoub 2023): GGX.
+    SphericalCap,
+    /// The same without most of what would be reflected below the horizon (Eto and Tokuyoshi 2023): GGX.
+    BoundedVisible,
+}
+
+/// What stays the same for all samples of a texel.
+#[derive(Clone, Copy, Debug)]
+pub struct View<R> {
+    lobe: Microfacet,
+    alpha: R,
+    /// n·v
+    mu: R,
+    /// sin θ_v
+    sv: R,
+    /// [`Microfacet::masking_smith`] of n·v.
+    smu: R,
+    /// μ(1+2Λ(μ)) of GGX.
+    visible: R,
+    /// The inverse square of the unit of slopes.
+    narrow: R,
+    /// v in the space where the microsurface of GGX is a hemisphere: in the plane, and along the normal.
+    stretched: (R, R),
+}
+
+/// A direction of light and what it is worth.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample<R> {
+    /// n·l; below the horizon it counts nothing.
+    pub nl: R,
+    /// What of l lies in the plane of v and n, positive where v lies.
+    pub plane: R,
+    /// v·h
+    pub vh: R,
+    /// f n·l / (F pdf)
+    pub weight: R,
+}
+
+impl Sampler {
+    /// All of them.
+    pub const ALL: [Sampler; 6] = [
+        Sampler::Uniform,
+        Sampler::Cosine,
+        Sampler::HalfVector,
+        Sampler::Visible,
+        Sampler::SphericalCap,
+        Sampler::BoundedVisible,
+    ];
+
+    /// Whether it serves for a lobe: those by what v sees are GGX's, with whatever masking.
+    pub fn applies_to(self, lobe: Microfacet) -> bool {
+        match self {
+            Sampler::Uniform | Sampler::Cosine | Sampler::HalfVector => true,
+            Sampler::Visible | Sampler::SphericalCap | Sampler::BoundedVisible => lobe.ndf == Ndf::Ggx,
+        }
+    }
+
+    /// The density of the direction of light whose half vector has the squared slope `t`, by solid angle, above the horizon.
+    pub fn pdf(self, view: &View<f64>, nl: f64, vh: f64, t: f64) -> f64 {
+        let d = view.distribution(t);
+        match self {
+            Sampler::Uniform => 0.5 * FRAC_1_PI,
+            Sampler::Cosine => nl * FRAC_1_PI,
+            Sampler::HalfVector => d / (1.0 + t).sqrt() / (4.0 * vh),
+            Sampler::Visible | Sampler::SphericalCap => d / (2.0 * (view.mu + view.visible)),
+            Sampler::BoundedVisible => d / (2.0 * (bounded_visible::bound(view) * view.mu + view.visible)),
+        }
+    }
+}
+
+impl<R: Real> View<R> {
+    /// The view at n·v = `mu`.
+    #[inline(always)]
+    pub fn new(lobe: Microfacet, mu: R, alpha: R) -> Self {
+        let sv = (mu.complement() * (mu + 1.0)).sqrt();
+        let visible = Ndf::Ggx.smith(mu, alpha);
+        let stretched = (alpha * sv / visible, mu / visible);
+        let width = lobe.ndf.width(alpha);
+        let narrow = (width * width).recip();
+        View { lobe, alpha, mu, sv, smu: lobe.masking_smith(mu, alpha), visible, narrow, stretched }
+    }
+
+    /// n·l V
+    #[inline(always)]
+    fn cosine_visibility(&self, nl: R) -> R {
+        self.lobe.cosine_visibility_at(nl, self.mu, self.smu, self.alpha)
+    }
+
+    /// D at the half vector with the squared slope `t` = tan² θ_h.
+    #[inline(always)]
+    fn distribution(&self, t: R) -> R {
+        let secant2 = t + 1.0;
+        self.lobe.ndf.slope_density(t * self.narrow, self.alpha) * self.narrow * secant2 * secant2
+    }
+
+    /// The direction that the half vector (`x` in the plane, `z` along the normal) reflects; its weight is n·l V yet.
+    #[inline(always)]
+    fn reflect(&self, x: R, z: R) -> Sample<R> {
+        let vh = self.sv * x + self.mu * z;
+        let nl = vh * 2.0 * z - self.mu;
+        Sample { nl, plane: vh * 2.0 * x - self.sv, vh, weight: self.cosine_visibility(nl) }
+    }
+
+    /// The same where the half vector is given in the space in which the microsurface of GGX is a hemisphere, by its
+    /// components in the plane, squared out of it, and along the normal, in whatever length.
+    #[inline(always)]
+    fn reflect_stretched(&self, (x, y2, z): (R, R, R), factor: R) -> Sample<R> {
+        let shrink = (self.alpha * self.alpha * (x * x + y2) + z * z).sqrt().recip();
+        let sample = self.reflect(self.alpha * x * shrink, z * shrink);
+        Sample { weight: sample.weight * factor, ..sample }
+    }
+}
+
+/// Terms that are added up before they join the sum: rounding then grows with the number of blocks.
+const BLOCK: usize = 64;
+
+/// The mean of the samples that items stand for; a macro, since a closure of this size is compiled apart, without vectors.
+macro_rules! mean {
+    ($items:expr, $item:ident => $weight:expr, $sample:expr) => {{
+        let mut sum = ScaleBias::zero();
+        for items in $items.chunks(BLOCK) {
+            let mut block = ScaleBias::zero();
+            for $item in items {
+                let sample: Sample<R> = $sample;
+                let value = R::from(0.0).select_below(sample.nl, sample.weight * $weight, R::from(0.0));
+                let f = schlick_weight(sample.vh);
+                block.add(value, ScaleBias { a: f.complement(), b: f });
+            }
+            sum.add(R::from(1.0), block);
+        }
+        sum
+    }};
+}
+
+/// (A, B) as the mean over `points`, or for [`Sampler::HalfVector`] over the half vectors that they choose
+/// ([`half_vectors`]).
+#[inline(always)]
+pub fn estimate<R: Real>(sampler: Sampler, view: &View<R>, points: &[Point], halves: &[HalfVector]) -> ScaleBias<R> {
+    match sampler {
+        Sampler::Uniform => mean!(points, p => p.weight, uniform_sample(view, p)),
+        Sampler::Cosine => mean!(points, p => p.weight, cosine_sample(view, p)),
+        Sampler::HalfVector => mean!(halves, h => 1.0, half_vector_sample(view, h)),
+        Sampler::Visible => mean!(points, p => p.weight, visible_sample(view, p)),
+        Sampler::SphericalCap => mean!(points, p => p.weight, spherical_cap_sample(view, p)),
+        Sampler::BoundedVisible => mean!(points, p => p.weight, bounded_visible_sample(view, p)),
+    }
+}
+
+/// 2π, the solid angle of all directions of light.
+const HEMISPHERE: f64 = 2.0 * PI;

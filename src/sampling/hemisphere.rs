@@ -1,0 +1,34 @@
+//! Directions of light that know nothing of the lobe.
+
+use super::{HEMISPHERE, Sample, View};
+use crate::lanes::Real;
+use crate::quadrature::point_set::Point;
+use std::f64::consts::PI;
+
+/// pdf = 1/(2π).
+#[inline(always)]
+pub fn uniform_sample<R: Real>(view: &View<R>, point: &Point) -> Sample<R> {
+    let z = 1.0 - point.v;
+    direct(view, point, z, (point.v * (1.0 + z)).sqrt(), HEMISPHERE)
+}
+
+/// pdf = n·l/π.
+#[inline(always)]
+pub fn cosine_sample<R: Real>(view: &View<R>, point: &Point) -> Sample<R> {
+    let z = (1.0 - point.v).sqrt();
+    direct(view, point, z, point.root, PI / z)
+}
+
+/// The sample at n·l = `z`, sin θ_l = `sine`.
+#[inline(always)]
+fn direct<R: Real>(view: &View<R>, point: &Point, z: f64, sine: f64, inverse_pdf: f64) -> Sample<R> {
+    let plane = sine * point.cosine;
+    // v + l, which is 2 v·h long.
+    let (x, across2, up) = (view.sv + plane, sine * sine * point.sine2, view.mu + z);
+    let level2 = x * x + across2;
+    let t = level2 / up / up;
+    let vh = (level2 + up * up).sqrt() * 0.5;
+    let nl = R::from(z);
+    let weight = view.distribution(t) * view.cosine_visibility(nl) * inverse_pdf;
+    Sample { nl, plane: R::from(plane), vh, weight }
+}
