@@ -1,4 +1,5 @@
 // A texel's integral, whatever its alpha: the twin of src/integrate.rs and src/integrate/rule.rs.
+// It needs quadrature: (A, B) of a lobe at alpha above 0.
 
 // The limit alpha -> 0 at fixed n.v: a perfect mirror, times `limit`.
 fn mirror(mu: f32, limit: f32) -> vec2<f32> {
@@ -11,5 +12,5 @@ fn integrate(mu: f32, alpha: f32, rule: Rule) -> vec2<f32> {
     if alpha == 0.0 {
         return mirror(mu, smooth_limit(mu));
     }
-    return h_space(mu, alpha, rule);
+    return quadrature(mu, alpha, rule);
 }

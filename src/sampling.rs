@@ -87,6 +87,11 @@ impl Sampler {
         Sampler::BoundedVisible,
     ];
 
+    /// Whether a device can run it for a lobe: half vectors by their distribution are GGX's there.
+    pub fn runs_on_device(self, lobe: Microfacet) -> bool {
+        self.applies_to(lobe) && (self != Sampler::HalfVector || lobe.ndf == Ndf::Ggx)
+    }
+
     /// Whether it serves for a lobe: those by what v sees are GGX's, with whatever masking.
     pub fn applies_to(self, lobe: Microfacet) -> bool {
         match self {
@@ -111,7 +116,7 @@ impl Sampler {
 impl<R: Real> View<R> {
     /// The view at n·v = `mu`.
     #[inline(always)]
-    pub fn new(lobe: Microfacet, mu: R, alpha: R) -> Self {
+    pub fn seen_from(lobe: Microfacet, mu: R, alpha: R) -> Self {
         let sv = (mu.complement() * (mu + 1.0)).sqrt();
         let visible = Ndf::Ggx.smith(mu, alpha);
         let stretched = (alpha * sv / visible, mu / visible);
@@ -135,7 +140,7 @@ impl<R: Real> View<R> {
 
     /// The direction that the half vector (`x` in the plane, `z` along the normal) reflects; its weight is n·l V yet.
     #[inline(always)]
-    fn reflect(&self, x: R, z: R) -> Sample<R> {
+    fn reflected(&self, x: R, z: R) -> Sample<R> {
         let vh = self.sv * x + self.mu * z;
         let nl = vh * 2.0 * z - self.mu;
         Sample { nl, plane: vh * 2.0 * x - self.sv, vh, weight: self.cosine_visibility(nl) }
@@ -146,7 +151,7 @@ impl<R: Real> View<R> {
     #[inline(always)]
     fn reflect_stretched(&self, (x, y2, z): (R, R, R), factor: R) -> Sample<R> {
         let shrink = (self.alpha * self.alpha * (x * x + y2) + z * z).sqrt().recip();
-        let sample = self.reflect(self.alpha * x * shrink, z * shrink);
+        let sample = self.reflected(self.alpha * x * shrink, z * shrink);
         Sample { weight: sample.weight * factor, ..sample }
     }
 }

@@ -50,7 +50,7 @@ const SAMPLES: usize = 200_000;
 /// Pearson's test: the probability of counts that differ from those expected by as much as these do, or more. Cells of
 /// which fewer than 5 samples are expected are pooled, below which the statistic is not distributed as χ².
 fn probability(sampler: Sampler, lobe: Microfacet, mu: f64, alpha: f64, claimed_alpha: f64) -> f64 {
-    let (view, claimed) = (View::new(lobe, mu, alpha), View::new(lobe, mu, claimed_alpha));
+    let (view, claimed) = (View::seen_from(lobe, mu, alpha), View::seen_from(lobe, mu, claimed_alpha));
     let mut counts = vec![0.0; CELLS * CELLS + 1];
     let mut random = Random(7);
     for point in random_points(&mut random, SAMPLES) {
@@ -136,7 +136,7 @@ fn a_sample_weighs_the_lobe_over_the_density() {
     for (sampler, lobe) in all() {
         for point in random_points(&mut random, 200) {
             let (mu, alpha) = (0.01 + 0.98 * random.next(), 0.05 + 0.9 * random.next());
-            let view = View::new(lobe, mu, alpha);
+            let view = View::seen_from(lobe, mu, alpha);
             let sample = draw(sampler, lobe, &view, alpha, &point);
             if sample.nl < 1e-6 {
                 continue;
@@ -179,7 +179,7 @@ fn every_unbiased_estimator_converges_to_the_reference() {
                 continue;
             }
             let truth = REFERENCE.integrator().integrate(lobe, mu, alpha);
-            let view = View::new(lobe, mu, alpha);
+            let view = View::seen_from(lobe, mu, alpha);
             let value = |points: Vec<Point>| estimate(sampler, &view, &points, &half_vectors(lobe.ndf, alpha, &points));
             let by_chance: Vec<ScaleBias> = (0..ESTIMATES).map(|_| value(random_points(&mut random, 1024))).collect();
             let scrambled: Vec<ScaleBias> =
@@ -205,7 +205,7 @@ fn every_unbiased_estimator_converges_to_the_reference() {
 fn scrambled_points_converge_faster_than_chance() {
     let lobe = common::ggx(Masking::HeightCorrelated);
     let (mu, alpha) = (0.6, 0.5);
-    let (view, truth) = (View::new(lobe, mu, alpha), REFERENCE.integrator().integrate(lobe, mu, alpha));
+    let (view, truth) = (View::seen_from(lobe, mu, alpha), REFERENCE.integrator().integrate(lobe, mu, alpha));
     let rms = |count: usize| {
         let error = |seed: u64| {
             estimate(Sampler::SphericalCap, &view, &PointSet::Sobol.points(count, 2 * seed), &[]).a - truth.a

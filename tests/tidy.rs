@@ -125,7 +125,8 @@ fn functions(text: &str) -> Vec<&str> {
 fn every_wgsl_function_has_a_rust_twin_and_a_test() {
     let rust: Vec<(String, String)> = files("src");
     let rust: Vec<&str> = rust.iter().flat_map(|(_, text)| functions(text)).collect();
-    let tests = file("tests/vulkan/twins.rs") + &file("tests/vulkan/model_twins.rs");
+    let tests: String =
+        ["twins", "model_twins", "sampling_twins"].map(|name| file(&format!("tests/vulkan/{name}.rs"))).concat();
     let mut count = 0;
     for (path, text) in files("shaders") {
         for function in functions(&text).into_iter().filter(|&name| name != "main") {

@@ -59,7 +59,7 @@ impl<V: Vector> pulp::NullaryFnOnce for Row<'_, V> {
             let mu = V::gather(|i| mus[i.min(mus.len() - 1)]);
             let ScaleBias { a, b } = match work {
                 Work::Rule(integrator) => integrator.quadrature(lobe, mu, alpha),
-                Work::Samples(sampler, points) => estimate(sampler, &View::new(lobe, mu, alpha), points, halves),
+                Work::Samples(sampler, points) => estimate(sampler, &View::seen_from(lobe, mu, alpha), points, halves),
             };
             for (i, texel) in texels.iter_mut().enumerate() {
                 *texel = ScaleBias { a: a.lane(i), b: b.lane(i) };

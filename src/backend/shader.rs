@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use crate::integrate::Integrand;
 use crate::model::{Diffuse, Masking, Microfacet, Ndf};
 use crate::quadrature::slope_map::Power;
+use crate::sampling::Sampler;
 use naga::back::spv;
 use naga::valid::{Capabilities, ShaderStages, SubgroupOperationSet, ValidationFlags, Validator};
 
@@ -32,6 +33,8 @@ pub mod wgsl {
     pub const RULE: &str = include_str!("../../shaders/rule.wgsl");
     /// Twin of `integrate::h_space`.
     pub const H_SPACE: &str = include_str!("../../shaders/h_space.wgsl");
+    /// Twin of `sampling`.
+    pub const SAMPLING: &str = include_str!("../../shaders/sampling.wgsl");
     /// Twin of `integrate`.
     pub const INTEGRATE: &str = include_str!("../../shaders/integrate.wgsl");
     /// Twin of `preview`.
@@ -102,9 +105,36 @@ fn smooth_limit(mu: f32) -> f32 {{ return {limit}; }}
 /// The shader that bakes the numbers of an integrand.
 pub fn bake_kernel(integrand: Integrand, power: Power) -> Result<Kernel> {
     match integrand {
-        Integrand::Specular(lobe) => compile(&[&lobe_source(lobe, power), wgsl::INTEGRATE, wgsl::BAKE].join("\n")),
+        Integrand::Specular(lobe) => {
+            compile(&[&lobe_source(lobe, power), &quadrature("h_space"), wgsl::INTEGRATE, wgsl::BAKE].join("\n"))
+        }
         Integrand::Diffuse(diffuse) => compile(&[&diffuse_source(diffuse), wgsl::BAKE].join("\n")),
     }
+}
+
+/// The shader that bakes the same by a sampler.
+pub fn samples_kernel(lobe: Microfacet, sampler: Sampler) -> Result<Kernel> {
+    let lobe = lobe_source(lobe, Power::Four);
+    let (sampling, estimate) = (sampling_source(sampler), quadrature("estimate"));
+    compile(&[&lobe, &sampling, &estimate, wgsl::INTEGRATE, wgsl::BAKE].join("\n"))
+}
+
+/// The WGSL that estimates by a sampler; it goes with that of a lobe.
+pub fn sampling_source(sampler: Sampler) -> String {
+    let draw = match sampler {
+        Sampler::Uniform => "uniform_sample",
+        Sampler::Cosine => "cosine_sample",
+        Sampler::HalfVector => "half_vector_sample",
+        Sampler::Visible => "visible_sample",
+        Sampler::SphericalCap => "spherical_cap_sample",
+        Sampler::BoundedVisible => "bounded_visible_sample",
+    };
+    format!("{}\nfn draw(view: View, point: Point) -> Sample {{ return {draw}(view, point); }}", wgsl::SAMPLING)
+}
+
+/// The WGSL that makes a function the one by which a texel is integrated.
+pub fn quadrature(function: &str) -> String {
+    format!("fn quadrature(mu: f32, alpha: f32, rule: Rule) -> vec2<f32> {{ return {function}(mu, alpha, rule); }}")
 }
 
 /// The shader that renders a row of a preview.

@@ -5,6 +5,7 @@
 pub mod bake;
 pub mod buffer;
 pub mod devices;
+pub mod evaluate;
 pub mod gpu;
 pub mod pipeline;
 pub mod render;

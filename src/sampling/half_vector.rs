@@ -46,6 +46,6 @@ pub fn half_vectors(ndf: Ndf, alpha: f64, points: &[Point]) -> Vec<HalfVector> {
 /// pdf = D n·h / (4 v·h) (Walter et al. 2007, equations 14 and 24).
 #[inline(always)]
 pub fn half_vector_sample<R: Real>(view: &View<R>, half: &HalfVector) -> Sample<R> {
-    let sample = view.reflect(R::from(half.x), R::from(half.z));
+    let sample = view.reflected(R::from(half.x), R::from(half.z));
     Sample { weight: sample.weight * sample.vh * half.weight, ..sample }
 }

@@ -3,11 +3,10 @@
 use crate::common::{Random, ggx};
 use crate::{DeviceTest, model_twins};
 use libtest_mimic::Failed;
-use splitsum::backend::shader::{compile, lobe_source, wgsl};
+use splitsum::backend::shader::{lobe_source, quadrature, wgsl};
 use splitsum::backend::vulkan::bake::node_data;
-use splitsum::backend::vulkan::buffer::Buffer;
+use splitsum::backend::vulkan::evaluate::evaluate;
 use splitsum::backend::vulkan::gpu::Gpu;
-use splitsum::backend::vulkan::pipeline::Pipeline;
 use splitsum::integrate::ScaleBias;
 use splitsum::integrate::h_space::{
     HSpaceNodes, HSpaceRule, View, cut_circle, full_circle, h_space, integrand, radial_weight, ring,
@@ -18,7 +17,8 @@ use splitsum::quadrature::slope_map::{MappedSlope, Power, slope_at, slope_comple
 pub const TESTS: &[DeviceTest] = &[
     ("functions of models equal their twins", |gpu| {
         let (lobe, nodes) = (ggx(Masking::HeightCorrelated), H288.nodes());
-        model_twins::twins().iter().try_for_each(|twin| compare(gpu, lobe, &nodes, twin))
+        let (source, data) = (source(lobe, &nodes), node_data(&nodes));
+        model_twins::twins().iter().try_for_each(|twin| compare(gpu, &source, &data, twin))
     }),
     ("functions of a lobe equal their twins: GGX", |gpu| all(gpu, Ndf::Ggx, Masking::HeightCorrelated, Power::Four)),
     ("functions of a lobe equal their twins: GGX, p = 2", |gpu| all(gpu, Ndf::Ggx, Masking::Separable, Power::Two)),
@@ -260,33 +260,20 @@ fn sum_of_multiples(x: f32) -> vec2<f32> {
 fn all(gpu: &Gpu, ndf: Ndf, masking: Masking, power: Power) -> Result<(), Failed> {
     let lobe = Microfacet { ndf, masking };
     let nodes = HSpaceRule { power, ..H288 }.nodes();
-    for twin in twins(lobe, &nodes) {
-        compare(gpu, lobe, &nodes, &twin)?;
-    }
-    Ok(())
+    twins(lobe, &nodes).iter().try_for_each(|twin| compare(gpu, &source(lobe, &nodes), &node_data(&nodes), twin))
 }
 
-fn compare(gpu: &Gpu, lobe: Microfacet, nodes: &HSpaceNodes, twin: &Twin) -> Result<(), Failed> {
+fn source(lobe: Microfacet, nodes: &HSpaceNodes) -> String {
+    let lobe = lobe_source(lobe, nodes.power);
+    [&lobe, &quadrature("h_space"), wgsl::DIFFUSE, wgsl::INTEGRATE, HELPERS].join("\n")
+}
+
+pub fn compare(gpu: &Gpu, source: &str, nodes: &[[f32; 2]], twin: &Twin) -> Result<(), Failed> {
     let mut random = Random(20261122);
     let arguments: Vec<[f32; 4]> =
         (0..COUNT).map(|_| (twin.arguments)(&mut random).map(|argument| argument as f32)).collect();
-    let entry = format!(
-        "@group(0) @binding(1) var<storage, read> arguments: array<vec4<f32>>;
-        @group(0) @binding(2) var<storage, read_write> results: array<vec4<f32>>;
-        @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3<u32>) {{
-            let p = arguments[id.x];
-            results[id.x] = {};
-        }}",
-        twin.wgsl
-    );
-    let kernel =
-        compile(&[&lobe_source(lobe, nodes.power), wgsl::DIFFUSE, wgsl::INTEGRATE, HELPERS, &entry].join("\n"))?;
-    let node_buffer = Buffer::with(gpu, &node_data(nodes))?;
-    let input = Buffer::with(gpu, &arguments)?;
-    let output = Buffer::new(gpu, 16 * COUNT)?;
-    let buffers = [&node_buffer, &input, &output];
-    Pipeline::new(gpu, &kernel, &buffers)?.run(&[], (COUNT / kernel.workgroup) as u32)?;
-    for (argument, result) in arguments.iter().zip(output.read::<[f32; 4]>(COUNT)) {
+    let results = evaluate(gpu, source, twin.wgsl, nodes, &arguments)?;
+    for (argument, result) in arguments.iter().zip(results) {
         let truth = (twin.rust)(argument.map(f64::from));
         for (got, truth) in result.map(f64::from).into_iter().zip(truth) {
             let allowed = twin.ulps * ULP * truth.abs().max(twin.scale);

@@ -4,11 +4,14 @@ use super::buffer::Buffer;
 use super::gpu::Gpu;
 use super::pipeline::{Elapsed, Pipeline};
 use crate::backend::Progress;
-use crate::backend::shader::bake_kernel;
+use crate::backend::shader::{Kernel, bake_kernel, samples_kernel};
 use crate::error::{Error, Result};
 use crate::integrate::h_space::{HSpaceNodes, HSpaceRule};
 use crate::integrate::{Integrand, ScaleBias};
 use crate::lut::Grid;
+use crate::model::Microfacet;
+use crate::quadrature::point_set::Point;
+use crate::sampling::Sampler;
 use std::time::Duration;
 
 /// What a dispatch aims at. Watchdogs strike at 2 s and more; 40 ms leaves room for a texel mix fifty times as dear.
@@ -41,16 +44,37 @@ pub fn bake(
     rule: &HSpaceRule,
     progress: Progress,
 ) -> Result<DeviceBake> {
-    let kernel = bake_kernel(integrand.into(), rule.power)?;
+    run(gpu, &bake_kernel(integrand.into(), rule.power)?, &node_data(&rule.nodes()), rule.counts(), grid, progress)
+}
+
+/// The same by an estimator over `points`.
+pub fn bake_samples(
+    gpu: &Gpu,
+    lobe: Microfacet,
+    grid: &Grid,
+    sampler: Sampler,
+    points: &[Point],
+) -> Result<DeviceBake> {
+    run(gpu, &samples_kernel(lobe, sampler)?, &point_data(points), [points.len(), 0, 0, 0], grid, &|_| ())
+}
+
+fn run(
+    gpu: &Gpu,
+    kernel: &Kernel,
+    nodes: &[[f32; 2]],
+    counts: [usize; 4],
+    grid: &Grid,
+    progress: Progress,
+) -> Result<DeviceBake> {
     let group = kernel.workgroup;
     let largest = largest_tile(gpu, group).min(grid.len());
     let mut tile = gpu.options().tile.unwrap_or(FIRST_TILE).clamp(1, largest);
-    let nodes = Buffer::with(gpu, &node_data(&rule.nodes()))?;
+    let nodes = Buffer::with(gpu, nodes)?;
     let mus = Buffer::with(gpu, &to_f32(&grid.mus))?;
     let alphas = Buffer::with(gpu, &to_f32(&grid.alphas))?;
     let results = Buffer::new(gpu, size_of::<[f32; 2]>() * largest)?;
     let buffers = [&nodes, &mus, &alphas, &results];
-    let pipeline = Pipeline::new(gpu, &kernel, &buffers)?;
+    let pipeline = Pipeline::new(gpu, kernel, &buffers)?;
     let poison = vec![POISON; largest];
     let mut integrals = Vec::with_capacity(grid.len());
     let mut device_seconds = Some(0.0);
@@ -58,7 +82,7 @@ pub fn bake(
         let first = integrals.len();
         let count = tile.min(grid.len() - first);
         results.write(&poison[..count]);
-        let push: Vec<u32> = [first, first + count].into_iter().chain(rule.counts()).map(|n| n as u32).collect();
+        let push: Vec<u32> = [first, first + count].into_iter().chain(counts).map(|n| n as u32).collect();
         let Elapsed { wall, device } = pipeline.run(bytemuck::cast_slice(&push), count.div_ceil(group) as u32)?;
         device_seconds = device_seconds.zip(device).map(|(sum, device)| sum + device);
         let values = results.read::<[f32; 2]>(count);
@@ -89,6 +113,12 @@ fn next_tile(tile: usize, elapsed: Duration) -> usize {
 pub fn node_data(nodes: &HSpaceNodes) -> Vec<[f32; 2]> {
     let lists = [&nodes.radial, &nodes.azimuth, &nodes.radial_horizon, &nodes.azimuth_horizon];
     lists.into_iter().flatten().map(|node| [node.at as f32, node.weight as f32]).collect()
+}
+
+/// The points as the shader reads them: (cos φ, weight), (v, 1 - v).
+pub fn point_data(points: &[Point]) -> Vec<[f32; 2]> {
+    let pair = |p: &Point| [[p.cosine, p.weight], [p.v, 1.0 - p.v]];
+    points.iter().flat_map(pair).map(|pair| pair.map(|value| value as f32)).collect()
 }
 
 fn to_f32(values: &[f64]) -> Vec<f32> {

@@ -1,0 +1,139 @@
+// Estimators over points of the unit square: the twin of src/sampling.rs and of the files below it.
+// It needs slope_width, slope_density, cosine_visibility and h_space's Sum; half vectors by their distribution are GGX's.
+
+// A point: (cos 2 pi u, weight) and (v, 1 - v), two of the nodes.
+struct Point {
+    cosine: f32,
+    weight: f32,
+    v: f32,
+    rest: f32,
+}
+
+struct View {
+    mu: f32,
+    sv: f32,
+    alpha: f32,
+    // mu (1 + 2 Lambda(mu)) of GGX.
+    visible: f32,
+    // v where the microsurface of GGX is a hemisphere: in the plane, and along the normal.
+    stretched: vec2<f32>,
+}
+
+struct Sample {
+    nl: f32,
+    vh: f32,
+    weight: f32,
+}
+
+// The view at n.v = mu.
+fn seen_from(mu: f32, alpha: f32) -> View {
+    let sv = sqrt((1.0 - mu) * (1.0 + mu));
+    let visible = ggx_smith(mu, alpha);
+    return View(mu, sv, alpha, visible, vec2<f32>(alpha * sv / visible, mu / visible));
+}
+
+// The direction that the half vector (x in the plane, z along the normal) reflects; its weight is n.l V yet.
+fn reflected(view: View, x: f32, z: f32) -> Sample {
+    let vh = view.sv * x + view.mu * z;
+    let nl = 2.0 * vh * z - view.mu;
+    return Sample(nl, vh, cosine_visibility(max(nl, 0.0), view.mu, view.alpha));
+}
+
+// The same where the half vector is given in the space in which the microsurface is a hemisphere, in whatever length.
+fn reflect_stretched(view: View, x: f32, y2: f32, z: f32, factor: f32) -> Sample {
+    let shrink = 1.0 / sqrt(view.alpha * view.alpha * (x * x + y2) + z * z);
+    let sample = reflected(view, view.alpha * x * shrink, z * shrink);
+    return Sample(sample.nl, sample.vh, sample.weight * factor);
+}
+
+// By D n.h of GGX (Walter et al. 2007, equation 35).
+fn half_vector_sample(view: View, point: Point) -> Sample {
+    let t = view.alpha * view.alpha * point.v / point.rest;
+    let z = 1.0 / sqrt(1.0 + t);
+    let sample = reflected(view, sqrt(t) * z * point.cosine, z);
+    return Sample(sample.nl, sample.vh, sample.weight * sample.vh * (4.0 / z));
+}
+
+// f n.l / (F pdf) over n.l V: 4 n.v / G1(v).
+fn visible_factor(view: View) -> f32 {
+    return 2.0 * (view.mu + view.visible);
+}
+
+// By what v sees (Heitz 2018).
+fn visible_sample(view: View, point: Point) -> Sample {
+    let across2 = point.v * ((1.0 - point.cosine) * (1.0 + point.cosine));
+    let s = 0.5 * (1.0 + view.stretched.y);
+    let along = (1.0 - s) * sqrt(1.0 - across2) + s * (sqrt(point.v) * point.cosine);
+    let towards = sqrt(max(1.0 - across2 - along * along, 0.0));
+    let x = view.stretched.x * towards - view.stretched.y * along;
+    let z = max(view.stretched.x * along + view.stretched.y * towards, 0.0);
+    return reflect_stretched(view, x, across2, z, visible_factor(view));
+}
+
+// A sample from the cap of heights above -bound.
+fn cap_sample(view: View, point: Point, bound: f32, factor: f32) -> Sample {
+    let below = (1.0 + bound) * point.v;
+    let sine2 = below * ((1.0 + bound) * point.rest + (1.0 - bound));
+    let across2 = sine2 * ((1.0 - point.cosine) * (1.0 + point.cosine));
+    let x = sqrt(sine2) * point.cosine + view.stretched.x;
+    return reflect_stretched(view, x, across2, max(1.0 - below + view.stretched.y, 0.0), factor);
+}
+
+// By spherical caps (Dupuy and Benyoub 2023).
+fn spherical_cap_sample(view: View, point: Point) -> Sample {
+    return cap_sample(view, point, view.stretched.y, visible_factor(view));
+}
+
+// k of the bounded cap (Eto and Tokuyoshi 2023, equation 5).
+fn bound(view: View) -> f32 {
+    let ratio = view.alpha * view.mu / (1.0 + view.sv);
+    return (1.0 - view.alpha) * (1.0 + view.alpha) / (1.0 + ratio * ratio);
+}
+
+// By the bounded cap (Eto and Tokuyoshi 2023).
+fn bounded_visible_sample(view: View, point: Point) -> Sample {
+    let k = bound(view);
+    return cap_sample(view, point, k * view.stretched.y, 2.0 * (k * view.mu + view.visible));
+}
+
+// D at the squared slope t.
+fn distribution(t: f32, alpha: f32) -> f32 {
+    let width = slope_width(alpha);
+    let narrow = 1.0 / (width * width);
+    return slope_density(t * narrow, alpha) * narrow * ((1.0 + t) * (1.0 + t));
+}
+
+// The sample at n.l = z, sin(theta_l) = sine.
+fn direct(view: View, point: Point, z: f32, sine: f32, inverse_pdf: f32) -> Sample {
+    let x = view.sv + sine * point.cosine;
+    let level2 = x * x + sine * sine * ((1.0 - point.cosine) * (1.0 + point.cosine));
+    let up = view.mu + z;
+    let weight = distribution(level2 / up / up, view.alpha) * cosine_visibility(z, view.mu, view.alpha) * inverse_pdf;
+    return Sample(z, 0.5 * sqrt(level2 + up * up), weight);
+}
+
+// pdf = 1/(2 pi).
+fn uniform_sample(view: View, point: Point) -> Sample {
+    return direct(view, point, point.rest, sqrt(point.v * (1.0 + point.rest)), 6.28318531);
+}
+
+// pdf = n.l/pi.
+fn cosine_sample(view: View, point: Point) -> Sample {
+    let z = sqrt(point.rest);
+    return direct(view, point, z, sqrt(point.v), 3.14159265 / z);
+}
+
+// (A, B) as the mean over as many points as the rule counts.
+fn estimate(mu: f32, alpha: f32, rule: Rule) -> vec2<f32> {
+    let view = seen_from(mu, alpha);
+    var sum = Sum(vec2<f32>(0.0), vec2<f32>(0.0));
+    for (var i = 0u; i < rule.radial; i++) {
+        let first = nodes[2u * i];
+        let second = nodes[2u * i + 1u];
+        let sample = draw(view, Point(first.x, first.y, second.x, second.y));
+        let f = schlick_weight(sample.vh);
+        let value = select(0.0, sample.weight * first.y, sample.nl > 0.0);
+        add(&sum, i, value * vec2<f32>(1.0 - f, f));
+    }
+    return sum.total + sum.block;
+}

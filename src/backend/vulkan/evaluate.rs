@@ -1,0 +1,34 @@
+//! An expression of WGSL on a device, for one argument after the other: functions alone, to be compared with their twins.
+
+use super::buffer::Buffer;
+use super::gpu::Gpu;
+use super::pipeline::Pipeline;
+use crate::backend::shader::compile;
+use crate::error::Result;
+
+/// What `expression`, a vec4 of the argument `p`, is for each of the arguments. `source` defines what it uses, `nodes`
+/// (shaders/rule.wgsl) among it.
+pub fn evaluate(
+    gpu: &Gpu,
+    source: &str,
+    expression: &str,
+    nodes: &[[f32; 2]],
+    arguments: &[[f32; 4]],
+) -> Result<Vec<[f32; 4]>> {
+    let entry = format!(
+        "@group(0) @binding(1) var<storage, read> arguments: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read_write> results: array<vec4<f32>>;
+@compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3<u32>) {{
+    if id.x >= arrayLength(&arguments) {{ return; }}
+    let p = arguments[id.x];
+    results[id.x] = {expression};
+}}"
+    );
+    let kernel = compile(&[source, &entry].join("\n"))?;
+    let nodes = Buffer::with(gpu, if nodes.is_empty() { &[[0.0; 2]] } else { nodes })?;
+    let input = Buffer::with(gpu, arguments)?;
+    let output = Buffer::new(gpu, 16 * arguments.len())?;
+    let buffers = [&nodes, &input, &output];
+    Pipeline::new(gpu, &kernel, &buffers)?.run(&[], arguments.len().div_ceil(kernel.workgroup) as u32)?;
+    Ok(output.read(arguments.len()))
+}
