@@ -1,10 +1,10 @@
 // Estimators over points of the unit square: the twin of src/sampling.rs and of the files below it.
 // It needs slope_width, slope_density, cosine_visibility and h_space's Sum; half vectors by their distribution are GGX's.
 
-// A point: (cos 2 pi u, weight) and (v, 1 - v), two of the nodes.
+// A point: (cos 2 pi u, sin^2 2 pi u) and (v, 1 - v). Three of the nodes, the third holding its weight.
 struct Point {
     cosine: f32,
-    weight: f32,
+    sine2: f32,
     v: f32,
     rest: f32,
 }
@@ -61,7 +61,7 @@ fn visible_factor(view: View) -> f32 {
 
 // By what v sees (Heitz 2018).
 fn visible_sample(view: View, point: Point) -> Sample {
-    let across2 = point.v * ((1.0 - point.cosine) * (1.0 + point.cosine));
+    let across2 = point.v * point.sine2;
     let s = 0.5 * (1.0 + view.stretched.y);
     let along = (1.0 - s) * sqrt(1.0 - across2) + s * (sqrt(point.v) * point.cosine);
     let towards = sqrt(max(1.0 - across2 - along * along, 0.0));
@@ -74,7 +74,7 @@ fn visible_sample(view: View, point: Point) -> Sample {
 fn cap_sample(view: View, point: Point, bound: f32, factor: f32) -> Sample {
     let below = (1.0 + bound) * point.v;
     let sine2 = below * ((1.0 + bound) * point.rest + (1.0 - bound));
-    let across2 = sine2 * ((1.0 - point.cosine) * (1.0 + point.cosine));
+    let across2 = sine2 * point.sine2;
     let x = sqrt(sine2) * point.cosine + view.stretched.x;
     return reflect_stretched(view, x, across2, max(1.0 - below + view.stretched.y, 0.0), factor);
 }
@@ -106,7 +106,7 @@ fn distribution(t: f32, alpha: f32) -> f32 {
 // The sample at n.l = z, sin(theta_l) = sine.
 fn direct(view: View, point: Point, z: f32, sine: f32, inverse_pdf: f32) -> Sample {
     let x = view.sv + sine * point.cosine;
-    let level2 = x * x + sine * sine * ((1.0 - point.cosine) * (1.0 + point.cosine));
+    let level2 = x * x + sine * sine * point.sine2;
     let up = view.mu + z;
     let weight = distribution(level2 / up / up, view.alpha) * cosine_visibility(z, view.mu, view.alpha) * inverse_pdf;
     return Sample(z, 0.5 * sqrt(level2 + up * up), weight);
@@ -128,11 +128,11 @@ fn estimate(mu: f32, alpha: f32, rule: Rule) -> vec2<f32> {
     let view = seen_from(mu, alpha);
     var sum = Sum(vec2<f32>(0.0), vec2<f32>(0.0));
     for (var i = 0u; i < rule.radial; i++) {
-        let first = nodes[2u * i];
-        let second = nodes[2u * i + 1u];
-        let sample = draw(view, Point(first.x, first.y, second.x, second.y));
+        let turn = nodes[3u * i];
+        let height = nodes[3u * i + 1u];
+        let sample = draw(view, Point(turn.x, turn.y, height.x, height.y));
         let f = schlick_weight(sample.vh);
-        let value = select(0.0, sample.weight * first.y, sample.nl > 0.0);
+        let value = select(0.0, sample.weight * nodes[3u * i + 2u].x, sample.nl > 0.0);
         add(&sum, i, value * vec2<f32>(1.0 - f, f));
     }
     return sum.total + sum.block;

@@ -35,7 +35,7 @@ fn points() -> Vec<Point> {
 }
 
 const HELPERS: &str = "
-fn point(u: f32, v: f32) -> Point { return Point(u, 1.0, v, 1.0 - v); }
+fn point(u: f32, v: f32) -> Point { return Point(u, (1.0 - u) * (1.0 + u), v, 1.0 - v); }
 fn counted(s: Sample) -> vec4<f32> { return vec4(s.nl, s.vh, select(0.0, s.weight, s.nl > 0.0), 0.0); }
 fn view_as_vector(view: View) -> vec4<f32> { return vec4(view.sv, view.visible, view.stretched); }
 ";

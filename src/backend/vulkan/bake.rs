@@ -115,10 +115,10 @@ pub fn node_data(nodes: &HSpaceNodes) -> Vec<[f32; 2]> {
     lists.into_iter().flatten().map(|node| [node.at as f32, node.weight as f32]).collect()
 }
 
-/// The points as the shader reads them: (cos φ, weight), (v, 1 - v).
+/// The points as the shader reads them: (cos φ, sin² φ), (v, 1 - v), (weight, nothing).
 pub fn point_data(points: &[Point]) -> Vec<[f32; 2]> {
-    let pair = |p: &Point| [[p.cosine, p.weight], [p.v, 1.0 - p.v]];
-    points.iter().flat_map(pair).map(|pair| pair.map(|value| value as f32)).collect()
+    let pairs = |p: &Point| [[p.cosine, p.sine2], [p.v, 1.0 - p.v], [p.weight, 0.0]];
+    points.iter().flat_map(pairs).map(|pair| pair.map(|value| value as f32)).collect()
 }
 
 fn to_f32(values: &[f64]) -> Vec<f32> {
