@@ -30,6 +30,9 @@
 //! - [`mod@bake`]: from a request to a table
 //! - [`preview`]: spheres lit with tables and with integrals
 //! - [`encode`]: a table as the bytes of a file
+//! - [`study`]: what methods are worth: errors beside times, and where formulas fail
+//! - [`draw`]: shapes as SVG and as pixels, the axes of charts
+//! - [`chart`]: charts of a study
 //! - `cli`: flags and configurations to requests; files and terminals
 //!
 //! What is absent, and kept absent by `tests/tidy.rs`: models know no tables; backends know no files; encoders know only
@@ -70,6 +73,9 @@ pub mod report;
 pub mod bake;
 pub mod preview;
 pub mod encode;
+pub mod study;
+pub mod draw;
+pub mod chart;
 pub mod cli;
 
 pub use bake::{Baked, bake};

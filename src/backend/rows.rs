@@ -2,13 +2,13 @@
 
 use crate::integrate::ScaleBias;
 use crate::integrate::rule::Integrator;
-use crate::lanes::{Vector, vectorised};
+use crate::lanes::{Real, Vector, vectorised};
 use crate::lut::Grid;
 use crate::model::Microfacet;
 use crate::quadrature::point_set::Point;
+use crate::sampling::stand_in::StandIn;
 use crate::sampling::{HalfVector, Sampler, View, estimate, half_vectors};
 use rayon::prelude::*;
-use std::marker::PhantomData;
 
 /// How a texel is computed.
 #[derive(Clone, Copy, Debug)]
@@ -17,53 +17,106 @@ pub enum Work<'a> {
     Rule(&'a Integrator),
     /// By a sampler, over these points.
     Samples(Sampler, &'a [Point]),
+    /// By a closed form that stands in for the integral.
+    StandIn(StandIn),
 }
 
 /// (A, B) at every point of the grid, in its order.
 pub fn bake_in<V: Vector>(lobe: Microfacet, grid: &Grid, work: Work) -> Vec<ScaleBias> {
+    match work {
+        Work::Rule(integrator) => rows::<V, _>(lobe, grid, &integrator),
+        Work::Samples(Sampler::Uniform, points) => rows::<V, _>(lobe, grid, &Samples::<0>(points)),
+        Work::Samples(Sampler::Cosine, points) => rows::<V, _>(lobe, grid, &Samples::<1>(points)),
+        Work::Samples(Sampler::HalfVector, points) => rows::<V, _>(lobe, grid, &Samples::<2>(points)),
+        Work::Samples(Sampler::Visible, points) => rows::<V, _>(lobe, grid, &Samples::<3>(points)),
+        Work::Samples(Sampler::SphericalCap, points) => rows::<V, _>(lobe, grid, &Samples::<4>(points)),
+        Work::Samples(Sampler::BoundedVisible, points) => rows::<V, _>(lobe, grid, &Samples::<5>(points)),
+        Work::StandIn(stand_in) => rows::<V, _>(lobe, grid, &stand_in),
+    }
+}
+
+/// A method by its type, so that the loop over a row is compiled for it alone: together they are too large to be optimised.
+trait Method: Sync {
+    /// What all texels of a row share.
+    fn share(&self, lobe: Microfacet, alpha: f64) -> Vec<HalfVector>;
+
+    /// A texel, or as many as there are lanes.
+    fn texel<R: Real>(&self, shared: &[HalfVector], lobe: Microfacet, mu: R, alpha: R) -> ScaleBias<R>;
+}
+
+impl Method for &Integrator {
+    fn share(&self, _: Microfacet, _: f64) -> Vec<HalfVector> {
+        Vec::new()
+    }
+
+    #[inline(always)]
+    fn texel<R: Real>(&self, _: &[HalfVector], lobe: Microfacet, mu: R, alpha: R) -> ScaleBias<R> {
+        self.quadrature(lobe, mu, alpha)
+    }
+}
+
+impl Method for StandIn {
+    fn share(&self, _: Microfacet, _: f64) -> Vec<HalfVector> {
+        Vec::new()
+    }
+
+    #[inline(always)]
+    fn texel<R: Real>(&self, _: &[HalfVector], _: Microfacet, mu: R, alpha: R) -> ScaleBias<R> {
+        self.evaluate(mu, alpha)
+    }
+}
+
+/// The sampler of this place in [`Sampler::ALL`], and its points.
+struct Samples<'a, const SAMPLER: usize>(&'a [Point]);
+
+impl<const SAMPLER: usize> Method for Samples<'_, SAMPLER> {
+    fn share(&self, lobe: Microfacet, alpha: f64) -> Vec<HalfVector> {
+        match Sampler::ALL[SAMPLER] {
+            Sampler::HalfVector => half_vectors(lobe.ndf, alpha, self.0),
+            _ => Vec::new(),
+        }
+    }
+
+    #[inline(always)]
+    fn texel<R: Real>(&self, shared: &[HalfVector], lobe: Microfacet, mu: R, alpha: R) -> ScaleBias<R> {
+        estimate(Sampler::ALL[SAMPLER], &View::seen_from(lobe, mu, alpha), self.0, shared)
+    }
+}
+
+fn rows<V: Vector, M: Method>(lobe: Microfacet, grid: &Grid, method: &M) -> Vec<ScaleBias> {
     let mut integrals = vec![ScaleBias::default(); grid.len()];
     integrals.par_chunks_mut(grid.mus.len()).zip(&grid.alphas).for_each(|(texels, &alpha)| {
         if alpha == 0.0 {
             let mirror = |(texel, &mu): (&mut ScaleBias, &f64)| *texel = ScaleBias::mirror(mu, lobe.smooth_limit(mu));
             return texels.iter_mut().zip(&grid.mus).for_each(mirror);
         }
-        // What all texels of a row share.
-        let halves = match work {
-            Work::Samples(Sampler::HalfVector, points) => half_vectors(lobe.ndf, alpha, points),
-            _ => Vec::new(),
-        };
-        vectorised(Row::<V> { lobe, work, halves: &halves, alpha, mus: &grid.mus, texels, lanes: PhantomData });
-    });
-    integrals
-}
-
-struct Row<'a, V> {
-    lobe: Microfacet,
-    work: Work<'a>,
-    halves: &'a [HalfVector],
-    alpha: f64,
-    mus: &'a [f64],
-    texels: &'a mut [ScaleBias],
-    lanes: PhantomData<V>,
-}
-
-impl<V: Vector> pulp::NullaryFnOnce for Row<'_, V> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let Row { lobe, work, halves, alpha, mus, texels, .. } = self;
-        let alpha = V::from(alpha);
-        for (mus, texels) in mus.chunks(V::LANES).zip(texels.chunks_mut(V::LANES)) {
+        let shared = &method.share(lobe, alpha);
+        for (mus, texels) in grid.mus.chunks(V::LANES).zip(texels.chunks_mut(V::LANES)) {
             // A group that is not full repeats its last texel.
             let mu = V::gather(|i| mus[i.min(mus.len() - 1)]);
-            let ScaleBias { a, b } = match work {
-                Work::Rule(integrator) => integrator.quadrature(lobe, mu, alpha),
-                Work::Samples(sampler, points) => estimate(sampler, &View::seen_from(lobe, mu, alpha), points, halves),
-            };
+            let ScaleBias { a, b } = vectorised(Group { lobe, method, shared, mu, alpha: V::from(alpha) });
             for (i, texel) in texels.iter_mut().enumerate() {
                 *texel = ScaleBias { a: a.lane(i), b: b.lane(i) };
             }
         }
+    });
+    integrals
+}
+
+/// As many texels as there are lanes.
+struct Group<'a, V, M> {
+    lobe: Microfacet,
+    method: &'a M,
+    shared: &'a [HalfVector],
+    mu: V,
+    alpha: V,
+}
+
+impl<V: Vector, M: Method> pulp::NullaryFnOnce for Group<'_, V, M> {
+    type Output = ScaleBias<V>;
+
+    #[inline(always)]
+    fn call(self) -> ScaleBias<V> {
+        self.method.texel(self.shared, self.lobe, self.mu, self.alpha)
     }
 }

@@ -8,6 +8,9 @@ use std::time::{Duration, Instant};
 /// Work shorter than this needs no bar.
 const PATIENCE: Duration = Duration::from_secs(1);
 
+/// Steps of a bar of work.
+const SHARES: usize = 1000;
+
 /// A bar that shows itself when the work turns out to be long.
 pub struct Progress {
     bar: ProgressBar,
@@ -19,8 +22,17 @@ pub struct Progress {
 impl Progress {
     /// For so many texels of the table `name`.
     pub fn new(name: &str, texels: usize, quiet: bool) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(texels as u64), ProgressDrawTarget::hidden());
-        if let Ok(style) = ProgressStyle::with_template("{msg} {bar:40} {percent}% of {len} texels, {eta} left") {
+        Progress::with_template(name, texels, "{msg} {bar:40} {percent}% of {len} texels, {eta} left", quiet)
+    }
+
+    /// For work of which shares are told.
+    pub fn of_work(name: &str, quiet: bool) -> Self {
+        Progress::with_template(name, SHARES, "{msg} {bar:40} {percent}%, {eta} left", quiet)
+    }
+
+    fn with_template(name: &str, length: usize, template: &str, quiet: bool) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(length as u64), ProgressDrawTarget::hidden());
+        if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
         bar.set_message(name.to_owned());
@@ -30,6 +42,16 @@ impl Progress {
     /// So many texels more.
     pub fn advance(&self, texels: usize) {
         self.bar.inc(texels as u64);
+        self.show();
+    }
+
+    /// This share of the work, out of 1, is done.
+    pub fn reach(&self, share: f64) {
+        self.bar.set_position((share * SHARES as f64) as u64);
+        self.show();
+    }
+
+    fn show(&self) {
         if self.wanted && self.start.elapsed() > PATIENCE {
             self.shown.call_once(|| self.bar.set_draw_target(ProgressDrawTarget::stderr()));
         }

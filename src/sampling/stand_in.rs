@@ -1,6 +1,9 @@
 //! Closed-form stand-ins for a table: (A, B) of GGX fitted by a handful of coefficients, for renderers without a table.
 
 use crate::integrate::ScaleBias;
+use crate::lanes::Real;
+use crate::special::exponential;
+use std::f64::consts::LN_2;
 
 /// A fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -20,29 +23,42 @@ impl StandIn {
     /// All of them.
     pub const ALL: [StandIn; 3] = [StandIn::KarisMobile, StandIn::Lazarov, StandIn::Materialx];
 
+    /// Where it was published.
+    pub fn source(self) -> &'static str {
+        match self {
+            StandIn::KarisMobile => "Karis 2014",
+            StandIn::Lazarov => "Narkowicz 2014",
+            StandIn::Materialx => "2023",
+        }
+    }
+
     /// (A, B) at n·v = `mu` and `alpha`.
-    pub fn evaluate(self, mu: f64, alpha: f64) -> ScaleBias {
+    #[inline(always)]
+    pub fn evaluate<R: Real>(self, mu: R, alpha: R) -> ScaleBias<R> {
         match self {
             StandIn::KarisMobile => karis_mobile(mu, alpha.sqrt()),
-            StandIn::Lazarov => lazarov(mu, 1.0 - alpha.sqrt().sqrt()),
+            StandIn::Lazarov => lazarov(mu, alpha.sqrt().sqrt().complement()),
             StandIn::Materialx => materialx(mu, alpha),
         }
     }
 }
 
-fn karis_mobile(mu: f64, r: f64) -> ScaleBias {
-    let smooth = 1.0 - r;
-    let edge = (smooth * smooth).min(libm::exp2(-9.28 * mu)) * smooth + 0.0425 - 0.0275 * r;
-    ScaleBias { a: 1.04 - 0.572 * r - 1.04 * edge, b: 1.04 * edge - 0.04 + 0.022 * r }
+#[inline(always)]
+fn karis_mobile<R: Real>(mu: R, r: R) -> ScaleBias<R> {
+    let smooth = r.complement();
+    let edge = (smooth * smooth).least(exponential(mu * (-9.28 * LN_2))) * smooth + 0.0425 - r * 0.0275;
+    ScaleBias { a: R::from(1.04) - r * 0.572 - edge * 1.04, b: edge * 1.04 - 0.04 + r * 0.022 }
 }
 
-fn lazarov(mu: f64, gloss: f64) -> ScaleBias {
-    let edge = (1.548 * gloss - 0.2511).min(libm::exp2(-7.672 * mu));
-    let b = ((0.5745 * gloss + 0.5753) * edge - 0.02397 * gloss - 0.02066).clamp(0.0, 1.0);
-    ScaleBias { a: (1.301 * gloss + 0.4755).clamp(0.0, 1.0) - b, b }
+#[inline(always)]
+fn lazarov<R: Real>(mu: R, gloss: R) -> ScaleBias<R> {
+    let edge = (gloss * 1.548 - 0.2511).least(exponential(mu * (-7.672 * LN_2)));
+    let b = saturate((gloss * 0.5745 + 0.5753) * edge - gloss * 0.02397 - 0.02066);
+    ScaleBias { a: saturate(gloss * 1.301 + 0.4755) - b, b }
 }
 
-fn materialx(mu: f64, alpha: f64) -> ScaleBias {
+#[inline(always)]
+fn materialx<R: Real>(mu: R, alpha: R) -> ScaleBias<R> {
     // Of 1, μ, α, μα, μ², α², μ²α, μα², μ²α²; numerators of A and B, then their denominators.
     const FIT: [[f64; 9]; 4] = [
         [0.1003, -0.6303, 9.748, -2.038, 29.34, -8.245, -26.44, 19.99, -5.448],
@@ -51,7 +67,17 @@ fn materialx(mu: f64, alpha: f64) -> ScaleBias {
         [1.0, 0.2281, 15.94, -55.83, 13.08, 41.26, 54.9, 300.2, -285.1],
     ];
     let (mu2, a2) = (mu * mu, alpha * alpha);
-    let powers = [1.0, mu, alpha, mu * alpha, mu2, a2, mu2 * alpha, mu * a2, mu2 * a2];
-    let [a, b, under_a, under_b] = FIT.map(|row| row.iter().zip(powers).map(|(c, p)| c * p).sum::<f64>());
-    ScaleBias { a: (a / under_a).clamp(0.0, 1.0), b: (b / under_b).clamp(0.0, 1.0) }
+    let powers = [R::from(1.0), mu, alpha, mu * alpha, mu2, a2, mu2 * alpha, mu * a2, mu2 * a2];
+    let mut sums = [R::from(0.0); 4];
+    for (sum, row) in sums.iter_mut().zip(FIT) {
+        for (power, coefficient) in powers.iter().zip(row) {
+            *sum = *sum + *power * coefficient;
+        }
+    }
+    ScaleBias { a: saturate(sums[0] / sums[2]), b: saturate(sums[1] / sums[3]) }
+}
+
+#[inline(always)]
+fn saturate<R: Real>(value: R) -> R {
+    value.most(R::from(0.0)).least(R::from(1.0))
 }

@@ -1,0 +1,73 @@
+//! What a renderer reads from tables of any size, axes and storage.
+
+use super::{Entry, PALETTE, footed, headed, legend};
+use crate::draw::axes::{Decades, draw};
+use crate::draw::{Colour, Drawing};
+use crate::precision::Precision;
+use crate::study::lookup::{AXES, Reading};
+use crate::study::{Errors, Lobe, Machine};
+use crate::units::word;
+
+/// Largest and mean error of a lookup against the size of the table in KiB.
+pub fn chart(readings: &[Reading], lobe: Lobe, machine: &Machine) -> Drawing {
+    let mut drawing = Drawing::new(1000.0, 620.0);
+    let about = format!(
+        "error of A and B as a renderer reads them, bilinearly, at places spread evenly over n\u{b7}v and roughness; {}, {}",
+        word(lobe.model),
+        word(lobe.masking)
+    );
+    headed(&mut drawing, "What size a table needs", &about);
+    type Of = fn(&Errors) -> f64;
+    let panels: [(&str, Of); 2] = [
+        ("largest error", Errors::largest),
+        ("root of the mean square of the error", |errors| errors.rms[0].max(errors.rms[1])),
+    ];
+    let kib = |reading: &Reading| reading.bytes as f64 / 1024.0;
+    for (panel, (name, of)) in panels.into_iter().enumerate() {
+        let left = 82.0 + 480.0 * panel as f64;
+        let x = Decades::around(readings.iter().map(kib), left, left + 400.0);
+        let y = Decades::around(readings.iter().map(|reading| of(&reading.errors)), 395.0, 66.0);
+        draw(&mut drawing, x, y, ("KiB of the table's two channels", name));
+        for (i, axes) in AXES.iter().enumerate() {
+            for (precision, kind, dashed) in STORAGES {
+                let own = |r: &&Reading| (r.x.as_str(), r.y.as_str()) == *axes && r.precision == precision;
+                let mut own: Vec<&Reading> = readings.iter().filter(own).collect();
+                own.sort_by_key(|reading| reading.size);
+                let places = own.iter().map(|r| (x.place(kib(r)), y.place(of(&r.errors))));
+                drawing.line(places.clone().collect(), COLOURS[i], 1.4, dashed);
+                for (reading, place) in own.iter().zip(places) {
+                    let size = reading.size;
+                    let label = format!(
+                        "{size} x {size}, {}, {}, {}: {:.1e}",
+                        reading.x,
+                        reading.y,
+                        word(precision),
+                        of(&reading.errors)
+                    );
+                    drawing.mark(place, kind, 3.5, COLOURS[i], label);
+                }
+            }
+        }
+    }
+    let axes = |(i, (x, y)): (usize, &(&str, &str))| Entry {
+        label: format!("{x} by {y}{}", if x.contains("edges") { "" } else { ", centres" }),
+        kind: 0,
+        colour: COLOURS[i],
+        dashed: false,
+    };
+    legend(&mut drawing, (82.0, 470.0), 6, &AXES.iter().enumerate().map(axes).collect::<Vec<_>>());
+    let storage = |(precision, kind, dashed): (Precision, usize, bool)| Entry {
+        label: word(precision),
+        kind,
+        colour: [90; 3],
+        dashed,
+    };
+    legend(&mut drawing, (562.0, 470.0), 6, &STORAGES.map(storage));
+    footed(&mut drawing, machine);
+    drawing
+}
+
+const COLOURS: [Colour; 5] = [PALETTE[1], PALETTE[6], PALETTE[4], PALETTE[3], PALETTE[2]];
+
+const STORAGES: [(Precision, usize, bool); 3] =
+    [(Precision::F16, 0, false), (Precision::Unorm16, 3, true), (Precision::Unorm8, 1, true)];

@@ -1,0 +1,146 @@
+//! `splitsum chart speed`
+
+use super::{StudyArgs, read_study, write_drawing, write_json};
+use crate::chart::lookup as lookup_chart;
+use crate::chart::size as size_chart;
+use crate::chart::speed::{Against, chart};
+use crate::cli::progress::Progress;
+use crate::cli::table_args::lobe;
+use crate::cli::{output, print};
+use crate::encode::metadata::TOOL;
+use crate::error::{Error, Result};
+use crate::study::lookup::Reading;
+use crate::study::size::Cost;
+use crate::study::speed::{Plan, Speed};
+use crate::study::technique::Technique;
+use crate::study::{Machine, lookup, size, speed};
+use serde::{Deserialize, Serialize};
+
+#[derive(clap::Args)]
+pub struct SpeedArgs {
+    /// Distribution of normals of the lobe
+    #[arg(long, value_name = "NAME", default_value = "ggx")]
+    model: String,
+    /// Its masking [default: the first that 'bake --help' names for the model]
+    #[arg(long, value_name = "NAME")]
+    masking: Option<String>,
+    /// Texels along either edge of the table that every method bakes, 16 to 512 [default: 128; 64 with --quick]
+    #[arg(long, value_name = "N")]
+    size: Option<usize>,
+    #[command(flatten)]
+    study: StudyArgs,
+}
+
+/// What is saved beside the charts.
+#[derive(Serialize, Deserialize)]
+struct Saved {
+    tool: String,
+    machine: Machine,
+    speed: Speed,
+    lookup: Vec<Reading>,
+    size: Vec<Cost>,
+}
+
+/// The files, without the folder.
+const FILES: [&str; 12] = [
+    "speed.json",
+    "speed.csv",
+    "lookup.csv",
+    "size.csv",
+    "speed.svg",
+    "speed.png",
+    "evaluations.svg",
+    "evaluations.png",
+    "lookup.svg",
+    "lookup.png",
+    "size.svg",
+    "size.png",
+];
+
+/// Seeds Owen's scrambling; any number will do.
+const SEED: u64 = 1;
+
+pub fn run(arguments: &SpeedArgs) -> Result<()> {
+    let study = &arguments.study;
+    let folder = study.folder(&FILES)?;
+    let saved = match &study.from {
+        Some(file) => read_study(file)?,
+        None => {
+            let saved = measure(arguments)?;
+            write_json(&format!("{folder}/speed.json"), &saved)?;
+            saved
+        }
+    };
+    let Saved { machine, speed, lookup, size, .. } = &saved;
+    let lobe = speed.plan.lobe;
+    write_drawing(&folder, "speed", &chart(speed, machine, Against::Time))?;
+    write_drawing(&folder, "evaluations", &chart(speed, machine, Against::Evaluations))?;
+    write_drawing(&folder, "lookup", &lookup_chart::chart(lookup, lobe, machine))?;
+    write_drawing(&folder, "size", &size_chart::chart(size, lobe, machine))?;
+    let tables = [("speed", speed.to_csv()), ("lookup", lookup::to_csv(lookup)), ("size", size::to_csv(size))];
+    for (name, csv) in tables {
+        output::write(&format!("{folder}/{name}.csv"), csv.as_bytes())?;
+    }
+    print(&summary(speed, machine))
+}
+
+fn measure(arguments: &SpeedArgs) -> Result<Saved> {
+    let SpeedArgs { model, masking, size, study } = arguments;
+    let quick = study.quick;
+    let lobe = lobe(model, masking.as_deref())?;
+    let size = size.unwrap_or(if quick { 64 } else { 128 });
+    if !(16..=512).contains(&size) {
+        return Err(Error::bad_input("size", "16 to 512", size.to_string(), "give a number in that range"));
+    }
+    let devices = study.devices()?;
+    let machine = devices.machine();
+    let plan = Plan { lobe: lobe.into(), size, seed: SEED, quick };
+    let progress = Progress::of_work("measuring", study.quiet);
+    // The parts' shares of the time, roughly.
+    let part = |from: f64, to: f64| {
+        let progress = &progress;
+        move |share: f64| progress.reach(from + (to - from) * share)
+    };
+    let speed = speed::measure(plan, &devices.open()?, &part(0.0, 0.5))?;
+    let readings = lookup::measure(lobe, if quick { 64 } else { 256 }, &part(0.5, 0.6))?;
+    let costs = size::measure(lobe, if quick { 256 } else { 4096 }, &devices.options, &part(0.6, 1.0))?;
+    Ok(Saved { tool: TOOL.into(), machine, speed, lookup: readings, size: costs })
+}
+
+/// Errors at which methods are compared.
+const ERRORS: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-5];
+
+/// What a reader of the chart would read off it, as Markdown.
+fn summary(speed: &Speed, machine: &Machine) -> String {
+    let cell = |value: Option<f64>| value.map_or("never".into(), |value| format!("{value:.2}"));
+    let heads = ERRORS.map(|error| format!(" {error:e} |")).concat();
+    let mut text = format!(
+        "{}, {} threads; {} x {}; the baseline took {:.2} ms\n\n\
+         Time of the cheapest step that keeps an error, over the baseline; in brackets, how often ours fits in\n\n\
+         | largest error |{heads}\n| --- |{}\n",
+        machine.processor,
+        machine.threads,
+        speed.plan.size,
+        speed.plan.size,
+        1e3 * speed.baseline_seconds,
+        " --- |".repeat(ERRORS.len())
+    );
+    let ours = ERRORS.map(|error| {
+        let best = speed.cheapest(error, Technique::is_ours);
+        best.map_or(" never |".into(), |m| format!(" {:.3} ({} {}) |", m.ratio, m.technique.name(), m.step))
+    });
+    text += &format!("| ours |{}\n", ours.concat());
+    for peer in Technique::all().filter(|technique| !technique.is_ours()) {
+        if speed.measurements.iter().any(|m| m.technique == peer) {
+            let cells = ERRORS.map(|error| {
+                let at = speed.at_error(peer, error);
+                match (at.peer, at.ours) {
+                    (Some(peer), Some(ours)) => format!(" {} ({:.0}) |", cell(Some(peer)), peer / ours),
+                    (peer, _) => format!(" {} |", cell(peer)),
+                }
+            });
+            text += &format!("| {} ({}) |{}\n", peer.name(), peer.source(), cells.concat());
+        }
+    }
+    text
+}

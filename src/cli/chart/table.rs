@@ -1,0 +1,33 @@
+//! `splitsum chart table`
+
+use crate::backend::vulkan::gpu::GpuOptions;
+use crate::backend::{Backend, BackendChoice};
+use crate::cli::output;
+use crate::cli::table_args::TableArgs;
+use crate::encode::Format;
+use crate::error::{Error, Result};
+use crate::report::map::{panels, sequential};
+
+pub fn run(table: &TableArgs) -> Result<()> {
+    let job = table.job()?;
+    if job.format != Format::Png {
+        return Err(Error::bad_input("output", "a name that ends in .png", job.output, "name a picture with -o"));
+    }
+    output::check(&job.output)?;
+    let backend = Backend::open(BackendChoice::Auto, &GpuOptions::default())?;
+    for request in &job.requests {
+        let table = crate::bake(request, &backend, &|_| ())?.table;
+        let (n, size) = (table.channels.len(), (table.x.size, table.y.size));
+        let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        let channels: Vec<Vec<f64>> = (0..n).map(|c| table.plane(c)).collect();
+        let scaled = channels.iter().map(|values| {
+            let end = largest(values).max(f64::MIN_POSITIVE);
+            values.iter().map(|value| value / end).collect()
+        });
+        let picture = panels(&scaled.collect::<Vec<_>>(), size, n, sequential);
+        output::write_picture(&job.output, &picture)?;
+        let line = |(c, values): (usize, &Vec<f64>)| format!("{}: 0 to {:.4}", table.channels[c].name, largest(values));
+        crate::cli::print(&channels.iter().enumerate().map(line).collect::<Vec<_>>().join(", "))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,281 @@
+//! Speed against accuracy: every method at every cost, timed against 1,024 samples in the same run, and how far it is off.
+
+use super::lookup::{self, Lookup};
+use super::technique::{Arithmetic, BASELINE, Step, Technique};
+use super::{Device, Errors, Lobe, Share, median, timed};
+use crate::axis::{Axis, AxisSpec, Parameter};
+use crate::backend::cpu;
+use crate::backend::vulkan::gpu::Gpu;
+use crate::error::Result;
+use crate::integrate::ScaleBias;
+use crate::integrate::rule::{REFERENCE, Rule};
+use crate::lut::Grid;
+use crate::model::Microfacet;
+use crate::precision::Precision;
+use crate::quadrature::point_set::PointSet;
+use serde::{Deserialize, Serialize};
+
+/// What is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Plan {
+    /// The lobe.
+    pub lobe: Lobe,
+    /// Texels along either edge of the table: n·v by perceptual roughness, texel centres.
+    pub size: usize,
+    /// Seeds Owen's scrambling.
+    pub seed: u64,
+    /// Whether a rough picture within seconds will do: fewer points and repeats.
+    pub quick: bool,
+}
+
+/// Who computed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Who {
+    /// The CPU.
+    Cpu(Arithmetic),
+    /// The Vulkan device of that name, in f32.
+    Device(String),
+}
+
+/// A method at one of its costs, as it was found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Measurement {
+    /// The method.
+    pub technique: Technique,
+    /// At which cost: a number of points of a set, a rule, a precision.
+    pub step: String,
+    /// By whom.
+    pub who: Who,
+    /// Evaluations of the integrand for a texel.
+    pub evaluations: f64,
+    /// Median of the seconds that the table took; on a device by its own clock, where it has one.
+    pub seconds: f64,
+    /// The shortest and the longest.
+    pub spread: [f64; 2],
+    /// The median over that of the baseline, run between the same moments.
+    pub ratio: f64,
+    /// How far the table is off.
+    #[serde(flatten)]
+    pub errors: Errors,
+}
+
+/// An error that nobody gets below who stores, computes or reads a table so.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Floor {
+    /// What is done.
+    pub name: String,
+    /// The largest error that it makes, measured on the table at hand.
+    pub error: f64,
+}
+
+/// Everything that was measured.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Speed {
+    /// What.
+    pub plan: Plan,
+    /// Median seconds of the baseline over the whole run.
+    pub baseline_seconds: f64,
+    /// What storage, arithmetic and lookup cost.
+    pub floors: Vec<Floor>,
+    /// The measurements.
+    pub measurements: Vec<Measurement>,
+}
+
+/// The longest that a single table may take, in seconds, full and quick.
+const PATIENCE: [f64; 2] = [0.7, 0.06];
+
+/// The grid of a plan.
+pub fn grid(size: usize) -> Result<Grid> {
+    let axis = |parameter| Axis::new(AxisSpec::of(parameter), size);
+    Grid::new(&axis(Parameter::Nov)?, &axis(Parameter::Roughness)?)
+}
+
+/// Measures everything that the plan names on the CPU and on the devices.
+pub fn measure(plan: Plan, devices: &[Gpu], share: Share) -> Result<Speed> {
+    let (lobe, grid) = (Microfacet::from(plan.lobe), grid(plan.size)?);
+    let truth = cpu::bake(lobe, &grid, &REFERENCE, &|_| ());
+    let run = Run { plan, lobe, grid: &grid, truth: &truth };
+    let mut speed = Speed { plan, baseline_seconds: 0.0, floors: run.floors()?, measurements: Vec::new() };
+    let (mut baselines, techniques) = (Vec::new(), Technique::all().collect::<Vec<_>>());
+    let turns = techniques.len() * (2 + devices.len());
+    let mut done = 0;
+    for technique in techniques {
+        let mut whos: Vec<(Who, Option<&Gpu>)> =
+            [Arithmetic::F32, Arithmetic::F64].map(|arithmetic| (Who::Cpu(arithmetic), None)).into();
+        whos.extend(devices.iter().map(|gpu| (Who::Device(Device::from(gpu.info()).name), Some(gpu))));
+        for (who, gpu) in whos {
+            let mut budget = Budget::default();
+            for step in technique.steps(lobe) {
+                if run.wants(&step, &who) && budget.allows(&step, run.patience()) {
+                    if let Some((measurement, baseline)) = run.measure(technique, &step, &who, gpu)? {
+                        budget.spent(&step, measurement.seconds);
+                        baselines.push(baseline);
+                        speed.measurements.push(measurement);
+                    }
+                }
+            }
+            done += 1;
+            share(done as f64 / turns as f64);
+        }
+    }
+    speed.baseline_seconds = median(baselines);
+    Ok(speed)
+}
+
+/// What a point of the last step cost: a set of points is left when its next step would take too long.
+#[derive(Default)]
+struct Budget {
+    each: Option<f64>,
+}
+
+impl Budget {
+    fn allows(&self, step: &Step, patience: f64) -> bool {
+        match (step, self.each) {
+            (Step::Samples(_, _, count), Some(each)) => each * *count as f64 <= patience,
+            _ => true,
+        }
+    }
+
+    fn spent(&mut self, step: &Step, seconds: f64) {
+        if let Step::Samples(_, _, count) = step {
+            self.each = Some(seconds / *count as f64);
+        }
+    }
+}
+
+struct Run<'a> {
+    plan: Plan,
+    lobe: Microfacet,
+    grid: &'a Grid,
+    truth: &'a [ScaleBias],
+}
+
+impl Run<'_> {
+    fn patience(&self) -> f64 {
+        PATIENCE[usize::from(self.plan.quick)]
+    }
+
+    /// Point sets differ in their errors, not in their costs: f64 and devices do with Hammersley's, and a quick run too.
+    fn wants(&self, step: &Step, who: &Who) -> bool {
+        let all = !self.plan.quick && *who == Who::Cpu(Arithmetic::F32);
+        let can = match who {
+            Who::Cpu(arithmetic) => step.runs_in(*arithmetic),
+            Who::Device(_) => true,
+        };
+        can && (all || !matches!(step, Step::Samples(_, set, _) if *set != PointSet::Hammersley))
+    }
+
+    fn measure(
+        &self,
+        technique: Technique,
+        step: &Step,
+        who: &Who,
+        gpu: Option<&Gpu>,
+    ) -> Result<Option<(Measurement, f64)>> {
+        let Run { plan, lobe, grid, truth } = *self;
+        let once = || -> Result<Option<(Vec<ScaleBias>, f64)>> {
+            match (who, gpu) {
+                (Who::Cpu(arithmetic), _) => {
+                    let (values, seconds) = timed(|| step.run(lobe, grid, *arithmetic, plan.seed));
+                    Ok(Some((values?, seconds)))
+                }
+                (Who::Device(_), None) => Ok(None),
+                (Who::Device(_), Some(gpu)) => {
+                    let (baked, wall) = timed(|| step.run_on(gpu, lobe, grid, plan.seed));
+                    Ok(baked?.map(|baked| (baked.integrals, baked.device_seconds.unwrap_or(wall))))
+                }
+            }
+        };
+        // The first warms up, and tells how many more are worth while.
+        let Some((values, first)) = once()? else { return Ok(None) };
+        let repeats = if first > 0.2 {
+            1
+        } else if plan.quick || first > 0.05 {
+            3
+        } else {
+            5
+        };
+        let (mut times, mut baselines) = (Vec::new(), Vec::new());
+        for _ in 0..repeats {
+            baselines.push(timed(|| BASELINE.run(lobe, grid, Arithmetic::F32, plan.seed)).1);
+            if let Some((_, seconds)) = once()? {
+                times.push(seconds);
+            }
+        }
+        let spread = times.iter().fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], &t| [low.min(t), high.max(t)]);
+        let (seconds, baseline) = (median(times), median(baselines));
+        let errors = Errors::between(values.into_iter().zip(truth.iter().copied()));
+        let evaluations = step.evaluations(lobe, grid.len());
+        let (who, step, ratio) = (who.clone(), step.name(), seconds / baseline);
+        Ok(Some((Measurement { technique, step, who, evaluations, seconds, spread, ratio, errors }, baseline)))
+    }
+
+    fn floors(&self) -> Result<Vec<Floor>> {
+        let Run { plan, lobe, grid, truth } = *self;
+        let floor = |name: &str, values: Vec<ScaleBias>| {
+            let errors = Errors::between(values.into_iter().zip(truth.iter().copied()));
+            Floor { name: name.into(), error: errors.largest() }
+        };
+        let stored = |precision: Precision| {
+            truth.iter().map(|v| ScaleBias { a: precision.nearest(v.a), b: precision.nearest(v.b) }).collect()
+        };
+        let finest = Step::Rule(Rule::named("h6144")?);
+        let (single, double) =
+            (finest.run(lobe, grid, Arithmetic::F32, plan.seed)?, finest.run(lobe, grid, Arithmetic::F64, plan.seed)?);
+        let arithmetic = Errors::between(single.into_iter().zip(double)).largest();
+        let axes = lookup::CENTRES;
+        let read = Lookup::new(lobe, lookup::POINTS / 4).of(lobe, axes, plan.size, truth)?;
+        Ok(vec![
+            Floor { name: format!("bilinear lookup, {0} x {0}", plan.size), error: read.largest() },
+            floor("8-bit storage", stored(Precision::Unorm8)),
+            floor("half-float storage", stored(Precision::F16)),
+            Floor { name: "f32 arithmetic".into(), error: arithmetic },
+        ])
+    }
+}
+
+/// How much longer a peer takes than the fastest of ours, where both are at most `error` off.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct AtError {
+    /// The largest error that is allowed.
+    pub error: f64,
+    /// The fastest of ours that keeps it, over the baseline.
+    pub ours: Option<f64>,
+    /// The peer's, over the baseline; none where it never gets there.
+    pub peer: Option<f64>,
+}
+
+impl Speed {
+    /// The cheapest measured step on the CPU of those techniques that keeps an error.
+    pub fn cheapest(&self, error: f64, of: impl Fn(Technique) -> bool) -> Option<&Measurement> {
+        let kept = self.measurements.iter().filter(|m| matches!(m.who, Who::Cpu(_)) && of(m.technique));
+        kept.filter(|m| m.errors.largest() <= error).min_by(|a, b| a.ratio.total_cmp(&b.ratio))
+    }
+
+    /// A peer against ours at an error.
+    pub fn at_error(&self, peer: Technique, error: f64) -> AtError {
+        let ratio = |of: &dyn Fn(Technique) -> bool| self.cheapest(error, of).map(|m| m.ratio);
+        AtError { error, ours: ratio(&Technique::is_ours), peer: ratio(&|technique| technique == peer) }
+    }
+
+    /// The measurements as lines of CSV.
+    pub fn to_csv(&self) -> String {
+        let mut csv = String::from(
+            "technique,source,step,who,evaluations,seconds,shortest,longest,ratio,max_a,max_b,rms_a,rms_b\n",
+        );
+        for m in &self.measurements {
+            let who = match &m.who {
+                Who::Cpu(Arithmetic::F32) => "CPU f32",
+                Who::Cpu(Arithmetic::F64) => "CPU f64",
+                Who::Device(name) => name,
+            };
+            let ([low, high], Errors { max, rms }) = (m.spread, m.errors);
+            let (name, source, step) = (m.technique.name(), m.technique.source(), &m.step);
+            let numbers = [m.evaluations, m.seconds, low, high, m.ratio, max[0], max[1], rms[0], rms[1]];
+            let numbers = numbers.map(|number| format!("{number:.6e}")).join(",");
+            csv += &format!("{name},\"{source}\",{step},\"{who}\",{numbers}\n");
+        }
+        csv
+    }
+}
