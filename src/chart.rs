@@ -3,6 +3,7 @@
 pub mod lookup;
 pub mod size;
 pub mod speed;
+pub mod stability;
 
 use crate::draw::{Anchor, Colour, Drawing, GREY, INK};
 use crate::study::Machine;

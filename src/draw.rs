@@ -119,6 +119,11 @@ impl Drawing {
         self.shapes.push(Shape::Path { points, line, fill, dashed: false, title });
     }
 
+    /// A picture whose left upper corner is `at`, drawn in that size.
+    pub fn image(&mut self, at: (f64, f64), size: (f64, f64), picture: Picture, title: impl Into<String>) {
+        self.shapes.push(Shape::Image { at, size, picture, title: title.into() });
+    }
+
     /// A ring around a place.
     pub fn ring(&mut self, at: (f64, f64), radius: f64, colour: Colour) {
         let corner = |i: i32| {

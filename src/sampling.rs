@@ -156,22 +156,27 @@ impl<R: Real> View<R> {
     }
 }
 
-/// Terms that are added up before they join the sum: rounding then grows with the number of blocks.
+/// So many terms are added up before they join the sum of a block, and so many blocks before they join the whole: rounding then
+/// grows with the cube root of their number.
 const BLOCK: usize = 64;
 
 /// The mean of the samples that items stand for; a macro, since a closure of this size is compiled apart, without vectors.
 macro_rules! mean {
     ($items:expr, $item:ident => $weight:expr, $sample:expr) => {{
         let mut sum = ScaleBias::zero();
-        for items in $items.chunks(BLOCK) {
-            let mut block = ScaleBias::zero();
-            for $item in items {
-                let sample: Sample<R> = $sample;
-                let value = R::from(0.0).select_below(sample.nl, sample.weight * $weight, R::from(0.0));
-                let f = schlick_weight(sample.vh);
-                block.add(value, ScaleBias { a: f.complement(), b: f });
+        for items in $items.chunks(BLOCK * BLOCK) {
+            let mut blocks = ScaleBias::zero();
+            for items in items.chunks(BLOCK) {
+                let mut block = ScaleBias::zero();
+                for $item in items {
+                    let sample: Sample<R> = $sample;
+                    let value = R::from(0.0).select_below(sample.nl, sample.weight * $weight, R::from(0.0));
+                    let f = schlick_weight(sample.vh);
+                    block.add(value, ScaleBias { a: f.complement(), b: f });
+                }
+                blocks.add(R::from(1.0), block);
             }
-            sum.add(R::from(1.0), block);
+            sum.add(R::from(1.0), blocks);
         }
         sum
     }};

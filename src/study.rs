@@ -3,7 +3,9 @@
 pub mod lookup;
 pub mod size;
 pub mod speed;
+pub mod stability;
 pub mod technique;
+pub mod textbook;
 
 use crate::backend::vulkan::devices::DeviceInfo;
 use crate::integrate::ScaleBias;

@@ -35,6 +35,8 @@ pub mod wgsl {
     pub const H_SPACE: &str = include_str!("../../shaders/h_space.wgsl");
     /// Twin of `sampling`.
     pub const SAMPLING: &str = include_str!("../../shaders/sampling.wgsl");
+    /// Twin of `study::textbook`.
+    pub const TEXTBOOK: &str = include_str!("../../shaders/textbook.wgsl");
     /// Twin of `integrate`.
     pub const INTEGRATE: &str = include_str!("../../shaders/integrate.wgsl");
     /// Twin of `preview`.

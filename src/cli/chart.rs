@@ -1,6 +1,7 @@
 //! `splitsum chart`
 
 mod speed;
+mod stability;
 mod table;
 
 use super::output;
@@ -23,6 +24,8 @@ pub enum ChartArgs {
     Table(Box<TableArgs>),
     /// Measure speed against accuracy, the field's estimators beside ours, on this CPU and on every Vulkan device
     Speed(speed::SpeedArgs),
+    /// Map where formulas and methods fail: into the corners of angle and roughness, in f64, in f32 and on every Vulkan device
+    Stability(stability::StabilityArgs),
 }
 
 /// What every study takes.
@@ -58,18 +61,19 @@ pub fn run(arguments: &ChartArgs) -> Result<()> {
     match arguments {
         ChartArgs::Table(table) => table::run(table),
         ChartArgs::Speed(arguments) => speed::run(arguments),
+        ChartArgs::Stability(arguments) => stability::run(arguments),
     }
 }
 
 impl StudyArgs {
     /// The folder, once it is known that the files can be written there.
-    fn folder(&self, files: &[&str]) -> Result<String> {
+    fn folder(&self, files: &[impl AsRef<str>]) -> Result<String> {
         let folder = self.output.trim_end_matches(std::path::is_separator);
         if Path::new(DEFAULT_OUTPUT).parent() == Some(Path::new(folder)) {
             let failed = output::failed("create the folder", folder, "choose another with -o");
             fs::create_dir_all(folder).map_err(failed)?;
         }
-        files.iter().try_for_each(|file| output::check(&format!("{folder}/{file}")))?;
+        files.iter().try_for_each(|file| output::check(&format!("{folder}/{}", file.as_ref())))?;
         Ok(folder.into())
     }
 

@@ -34,7 +34,7 @@ impl Decades {
     pub fn place(&self, value: f64) -> f64 {
         let share = (libm::log10(value) - f64::from(self.first)) / f64::from(self.last - self.first);
         // NaN, which has no place, lies at the beginning.
-        self.start + (self.end - self.start) * share.max(0.0).min(1.0)
+        self.start + (self.end - self.start) * if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) }
     }
 
     fn ticks(self) -> impl Iterator<Item = (f64, String)> {

@@ -61,6 +61,7 @@ pub fn sequential(value: f64) -> [u8; 3] {
     mix(STOPS[stop], STOPS[stop + 1], place - stop as f64)
 }
 
-fn mix(from: [f64; 3], to: [f64; 3], share: f64) -> [u8; 3] {
+/// A colour between two, this share of the way to the second.
+pub fn mix(from: [f64; 3], to: [f64; 3], share: f64) -> [u8; 3] {
     std::array::from_fn(|i| (from[i] + (to[i] - from[i]) * share).round() as u8)
 }

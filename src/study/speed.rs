@@ -107,12 +107,13 @@ pub fn measure(plan: Plan, devices: &[Gpu], share: Share) -> Result<Speed> {
         for (who, gpu) in whos {
             let mut budget = Budget::default();
             for step in technique.steps(lobe) {
-                if run.wants(&step, &who) && budget.allows(&step, run.patience()) {
-                    if let Some((measurement, baseline)) = run.measure(technique, &step, &who, gpu)? {
-                        budget.spent(&step, measurement.seconds);
-                        baselines.push(baseline);
-                        speed.measurements.push(measurement);
-                    }
+                if !run.wants(&step, &who) || !budget.allows(&step, run.patience()) {
+                    continue;
+                }
+                if let Some((measurement, baseline)) = run.measure(technique, &step, &who, gpu)? {
+                    budget.spent(&step, measurement.seconds);
+                    baselines.push(baseline);
+                    speed.measurements.push(measurement);
                 }
             }
             done += 1;

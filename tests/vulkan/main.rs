@@ -9,6 +9,7 @@ mod faults;
 mod model_twins;
 mod previews;
 mod sampling_twins;
+mod stability;
 mod tables;
 mod twins;
 
@@ -30,7 +31,8 @@ fn main() {
     // The tests use every core themselves, and loaders are not at their best when many threads open devices.
     arguments.test_threads = Some(1);
     let tests: Vec<DeviceTest> =
-        [twins::TESTS, sampling_twins::TESTS, tables::TESTS, certified::TESTS, previews::TESTS].concat();
+        [twins::TESTS, sampling_twins::TESTS, stability::TESTS, tables::TESTS, certified::TESTS, previews::TESTS]
+            .concat();
     let mut trials: Vec<Trial> = match list_devices() {
         Ok(devices) if !devices.is_empty() => {
             devices.iter().flat_map(|device| tests.iter().map(|&test| on(device, test))).collect()

@@ -42,8 +42,9 @@ struct Saved {
 }
 
 /// The files, without the folder.
-const FILES: [&str; 12] = [
+const FILES: [&str; 13] = [
     "speed.json",
+    "speed.md",
     "speed.csv",
     "lookup.csv",
     "size.csv",
@@ -61,12 +62,12 @@ const FILES: [&str; 12] = [
 const SEED: u64 = 1;
 
 pub fn run(arguments: &SpeedArgs) -> Result<()> {
-    let study = &arguments.study;
+    let (study, plan) = (&arguments.study, arguments.plan()?);
     let folder = study.folder(&FILES)?;
     let saved = match &study.from {
         Some(file) => read_study(file)?,
         None => {
-            let saved = measure(arguments)?;
+            let saved = measure(plan, study)?;
             write_json(&format!("{folder}/speed.json"), &saved)?;
             saved
         }
@@ -81,20 +82,45 @@ pub fn run(arguments: &SpeedArgs) -> Result<()> {
     for (name, csv) in tables {
         output::write(&format!("{folder}/{name}.csv"), csv.as_bytes())?;
     }
+    output::write(&format!("{folder}/speed.md"), page(&saved).as_bytes())?;
     print(&summary(speed, machine))
 }
 
-fn measure(arguments: &SpeedArgs) -> Result<Saved> {
-    let SpeedArgs { model, masking, size, study } = arguments;
-    let quick = study.quick;
-    let lobe = lobe(model, masking.as_deref())?;
-    let size = size.unwrap_or(if quick { 64 } else { 128 });
-    if !(16..=512).contains(&size) {
-        return Err(Error::bad_input("size", "16 to 512", size.to_string(), "give a number in that range"));
+/// The pictures and the table of the summary.
+fn page(Saved { machine, speed, .. }: &Saved) -> String {
+    let picture = |(title, name): (&str, &str)| format!("\n## {title}\n\n![{title}]({name}.png)\n");
+    let pictures = [
+        ("Error against time", "speed"),
+        ("Error against evaluations", "evaluations"),
+        ("What size a table needs", "lookup"),
+        ("Where a device begins to pay", "size"),
+    ];
+    let devices: String =
+        machine.devices.iter().map(|device| format!("; {} ({})", device.name, device.driver)).collect();
+    format!(
+        "# Speed against accuracy\n\nWritten by `splitsum chart speed` (splitsum {}{devices}); the numbers are in the `.csv` and `.json` \
+         files beside it.\n\n{}{}",
+        machine.version,
+        summary(speed, machine),
+        pictures.map(picture).concat()
+    )
+}
+
+impl SpeedArgs {
+    fn plan(&self) -> Result<Plan> {
+        let quick = self.study.quick;
+        let size = self.size.unwrap_or(if quick { 64 } else { 128 });
+        if !(16..=512).contains(&size) {
+            return Err(Error::bad_input("size", "16 to 512", size.to_string(), "give a number in that range"));
+        }
+        Ok(Plan { lobe: lobe(&self.model, self.masking.as_deref())?.into(), size, seed: SEED, quick })
     }
+}
+
+fn measure(plan: Plan, study: &StudyArgs) -> Result<Saved> {
+    let (lobe, quick) = (plan.lobe.into(), plan.quick);
     let devices = study.devices()?;
     let machine = devices.machine();
-    let plan = Plan { lobe: lobe.into(), size, seed: SEED, quick };
     let progress = Progress::of_work("measuring", study.quiet);
     // The parts' shares of the time, roughly.
     let part = |from: f64, to: f64| {

@@ -1,0 +1,245 @@
+//! Where formulas and methods fail: their errors over angle and roughness, far into the corners, in f64, in f32 and on devices.
+
+mod topics;
+mod ways;
+
+pub use topics::{Topic, topics};
+
+use super::{Device, Share};
+use crate::backend::shader::{lobe_source, wgsl};
+use crate::backend::vulkan::evaluate::evaluate;
+use crate::backend::vulkan::gpu::Gpu;
+use crate::error::Result;
+use crate::model::{Masking, Microfacet, Ndf};
+use crate::quadrature::slope_map::Power;
+use serde::{Deserialize, Serialize};
+
+/// An axis of a map, evenly spaced by the logarithm.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scale {
+    /// What varies.
+    pub name: String,
+    /// The first value, apart from 0.
+    pub from: f64,
+    /// The last.
+    pub to: f64,
+    /// Whether 0 itself stands before them.
+    pub zero: bool,
+}
+
+/// What is wrong with a value, apart from its error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Fault {
+    /// It is not a number.
+    Nan,
+    /// It is infinite.
+    Infinite,
+    /// It is below 0, where nothing is.
+    Negative,
+    /// It reflects more light than falls in.
+    AboveOne,
+}
+
+/// What a map belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Family {
+    /// A formula on the CPU.
+    Formulas,
+    /// Ways of integrating.
+    Methods,
+    /// Ways of storing.
+    Storage,
+    /// A formula on a device.
+    Devices,
+}
+
+/// Errors over two axes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Map {
+    /// What it belongs to.
+    pub family: Family,
+    /// Of what.
+    pub topic: String,
+    /// Which way of computing it.
+    pub variant: String,
+    /// Along a row.
+    pub x: Scale,
+    /// From row to row.
+    pub y: Scale,
+    /// Columns and rows.
+    pub size: [usize; 2],
+    /// Row by row; 0 where there is a fault instead.
+    pub errors: Vec<f64>,
+    /// Row by row: the place in [`Map::errors`], and what is wrong there.
+    pub faults: Vec<(usize, Fault)>,
+}
+
+/// Something that a device's own functions do.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fact {
+    /// What was asked.
+    pub what: String,
+    /// Of which device.
+    pub device: String,
+    /// What came out; no number is said in words.
+    pub value: String,
+}
+
+/// All maps and facts of a machine.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Stability {
+    /// The maps.
+    pub maps: Vec<Map>,
+    /// What devices do.
+    pub facts: Vec<Fact>,
+}
+
+impl Scale {
+    /// From one value to another.
+    pub fn new(name: &str, from: f64, to: f64) -> Self {
+        Scale { name: name.into(), from, to, zero: false }
+    }
+
+    /// The same with 0 before it.
+    pub fn with_zero(name: &str, from: f64, to: f64) -> Self {
+        Scale { zero: true, ..Scale::new(name, from, to) }
+    }
+
+    /// The value at place `i` of `n`, rounded to f32, so that all arithmetic starts from the same.
+    pub fn value(&self, i: usize, n: usize) -> f64 {
+        let first = usize::from(self.zero);
+        if i < first {
+            return 0.0;
+        }
+        let share = (i - first) as f64 / (n - 1 - first).max(1) as f64;
+        let log = libm::log10(self.from) * (1.0 - share) + libm::log10(self.to) * share;
+        f64::from(libm::exp10(log) as f32)
+    }
+}
+
+impl Map {
+    /// The map of these cells: an error, or what is wrong instead.
+    pub fn of(
+        (family, topic, variant): (Family, &str, &str),
+        (x, y): (&Scale, &Scale),
+        size: [usize; 2],
+        cells: &[std::result::Result<f64, Fault>],
+    ) -> Self {
+        // Three digits are enough for a colour, and for a reader.
+        let digits = |error: f64| format!("{error:.2e}").parse().unwrap_or(error);
+        let fault = |(i, cell): (usize, &std::result::Result<f64, Fault>)| cell.err().map(|fault| (i, fault));
+        Map {
+            family,
+            topic: topic.into(),
+            variant: variant.into(),
+            x: x.clone(),
+            y: y.clone(),
+            size,
+            errors: cells.iter().map(|cell| digits(cell.unwrap_or(0.0))).collect(),
+            faults: cells.iter().enumerate().filter_map(fault).collect(),
+        }
+    }
+
+    /// The largest error where there is no fault.
+    pub fn largest(&self) -> f64 {
+        self.errors.iter().copied().fold(0.0, f64::max)
+    }
+}
+
+impl Stability {
+    /// What devices' own functions do, as Markdown.
+    pub fn facts_table(&self) -> String {
+        let mut devices: Vec<&str> = self.facts.iter().map(|fact| fact.device.as_str()).collect();
+        devices.dedup();
+        let heads: String = devices.iter().map(|device| format!(" {device} |")).collect();
+        let mut text = format!("| |{heads}\n| --- |{}\n", " --- |".repeat(devices.len()));
+        for Fact { what, .. } in self.facts.iter().take_while(|fact| fact.device == devices[0]) {
+            let value = |device: &str| self.facts.iter().find(|fact| fact.what == *what && fact.device == device);
+            let cells = devices.iter().map(|device| format!(" {} |", value(device).map_or("", |fact| &fact.value)));
+            text += &format!("| {what} |{}\n", cells.collect::<String>());
+        }
+        text
+    }
+
+    /// The largest error and the faults of every map, as Markdown.
+    pub fn summary(&self) -> String {
+        let mut text = String::from("| | way | largest error | faults |\n| --- | --- | --- | --- |\n");
+        for map in &self.maps {
+            let [columns, rows] = map.size;
+            let faults = map.faults.len();
+            text += &format!(
+                "| {} | {} | {:.1e} | {faults} of {} |\n",
+                map.topic,
+                map.variant,
+                map.largest(),
+                columns * rows
+            );
+        }
+        text
+    }
+}
+
+/// The points of a map, row by row.
+pub fn points(x: &Scale, y: &Scale, [columns, rows]: [usize; 2]) -> Vec<(f64, f64)> {
+    let row = |j| (0..columns).map(move |i| (x.value(i, columns), y.value(j, rows)));
+    (0..rows).flat_map(row).collect()
+}
+
+/// Measures all topics in `columns` × `rows` points, on the CPU and on these devices.
+pub fn measure(size: [usize; 2], devices: &[Gpu], share: Share) -> Result<Stability> {
+    let mut stability = Stability::default();
+    let topics = topics();
+    for (done, topic) in topics.iter().enumerate() {
+        stability.maps.extend(topic.maps(size));
+        for gpu in devices {
+            stability.maps.extend(topic.maps_on(gpu, size)?);
+        }
+        share((done + 1) as f64 / topics.len() as f64);
+    }
+    for gpu in devices {
+        stability.facts.extend(facts(gpu)?);
+    }
+    Ok(stability)
+}
+
+/// The WGSL of all that topics evaluate.
+fn device_source(ndf: Ndf) -> String {
+    let lobe = Microfacet { ndf, masking: Masking::HeightCorrelated };
+    [&lobe_source(lobe, Power::Four), wgsl::TEXTBOOK].join("\n")
+}
+
+/// What the built-in functions of a device make of a few arguments.
+fn facts(gpu: &Gpu) -> Result<Vec<Fact>> {
+    let source = device_source(Ndf::Ggx);
+    let at = |expression: &str, arguments: &[[f32; 4]]| evaluate(gpu, &source, expression, &[], arguments);
+    let device = Device::from(gpu.info()).name;
+    let fact = |what: &str, value: String| Fact { what: what.into(), device: device.clone(), value };
+    let turns: Vec<[f32; 4]> =
+        (0..4096).map(|i| [i as f32 * (std::f32::consts::TAU / 4096.0), 0.0, 0.0, 0.0]).collect();
+    let circular = at("vec4(sin(p.x), cos(p.x), 0.0, 0.0)", &turns)?;
+    let off = |(angle, result): (&[f32; 4], &[f32; 4])| {
+        let angle = f64::from(angle[0]);
+        (f64::from(result[0]) - libm::sin(angle)).abs().max((f64::from(result[1]) - libm::cos(angle)).abs())
+    };
+    let sine = turns.iter().zip(&circular).map(off).fold(0.0, f64::max);
+    let exponents: Vec<[f32; 4]> = (0..4096).map(|i| [-20.0 * i as f32 / 4096.0, 1.0 + i as f32, 0.0, 0.0]).collect();
+    let grown = at("vec4(exp(p.x), log(p.y), 0.0, 0.0)", &exponents)?;
+    let relative = |value: f32, truth: f64| if truth == 0.0 { 0.0 } else { (f64::from(value) / truth - 1.0).abs() };
+    let growth = |i: usize, f: fn(f64) -> f64| {
+        let errors = exponents.iter().zip(&grown).map(|(p, result)| relative(result[i], f(p[i].into())));
+        errors.fold(0.0, f64::max)
+    };
+    let odd = at("vec4(pow(p.x, p.x), pow(p.x, p.y), p.z * 0.5, p.x / p.x)", &[[0.0, 5.0, 2e-38, 0.0]])?;
+    let [power, fifth, half, quotient] = odd[0];
+    let said = |value: f32| if value.is_nan() { "NaN".into() } else { format!("{value:e}") };
+    Ok(vec![
+        fact("largest error of sin and cos over a turn", format!("{sine:.1e}")),
+        fact("largest relative error of exp from -20 to 0", format!("{:.1e}", growth(0, libm::exp))),
+        fact("largest relative error of log from 1 to 4096", format!("{:.1e}", growth(1, libm::log))),
+        fact("pow(0, 0)", said(power)),
+        fact("pow(0, 5)", said(fifth)),
+        fact("half of 2e-38, which is subnormal", said(half)),
+        fact("0/0", said(quotient)),
+    ])
+}

@@ -1,0 +1,121 @@
+//! Ways of integrating GGX that are mapped: the loop that engines ship, estimators, quadrature; and sums of many samples.
+
+use crate::backend::rows::{Work, bake_in};
+use crate::integrate::ScaleBias;
+use crate::integrate::rule::{REFERENCE, Rule};
+use crate::lanes::{Lanes, Singles, Vector, vectorised};
+use crate::lut::Grid;
+use crate::model::{Masking, Microfacet, Ndf};
+use crate::quadrature::point_set::{Point, PointSet};
+use crate::sampling::Sampler;
+use crate::study::textbook::textbook_split_sum;
+
+/// The lobe.
+pub const GGX: Microfacet = Microfacet { ndf: Ndf::Ggx, masking: Masking::HeightCorrelated };
+
+/// A way of integrating.
+#[derive(Clone, Copy, Debug)]
+pub struct Way {
+    /// What maps call it.
+    pub name: &'static str,
+    how: How,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum How {
+    /// The loop that engines ship, over so many of Hammersley's points.
+    Loop(usize, Bits),
+    /// A sampler in f32.
+    Samples(Sampler, PointSet, usize),
+    /// A rule in f32.
+    Rule(&'static str),
+    /// What summing so many samples adds: one by one, or in blocks.
+    Sum(usize, Summed),
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Bits {
+    Single,
+    Double,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Summed {
+    OneByOne,
+    InBlocks,
+}
+
+/// Methods, from the field's to ours.
+pub const METHODS: [Way; 7] = [
+    Way { name: "textbook loop, f32", how: How::Loop(1024, Bits::Single) },
+    Way { name: "textbook loop, f64", how: How::Loop(1024, Bits::Double) },
+    Way { name: "half vectors by D", how: How::Samples(Sampler::HalfVector, PointSet::Hammersley, 1024) },
+    Way { name: "visible normals", how: How::Samples(Sampler::Visible, PointSet::Hammersley, 1024) },
+    Way { name: "bounded caps, Gauss", how: How::Samples(Sampler::BoundedVisible, PointSet::GaussTrapezoid, 1024) },
+    Way { name: "l-space, l512", how: How::Rule("l512") },
+    Way { name: "h-space, h640", how: How::Rule("h640") },
+];
+
+/// Sums of 65,536 samples.
+pub const SUMS: [Way; 2] = [
+    Way { name: "one by one", how: How::Sum(65_536, Summed::OneByOne) },
+    Way { name: "in blocks of 64", how: How::Sum(65_536, Summed::InBlocks) },
+];
+
+impl Way {
+    /// (A, B) over a grid.
+    pub fn bake(&self, grid: &Grid) -> Vec<ScaleBias> {
+        match self.how {
+            How::Loop(count, Bits::Single) => loops::<Singles>(grid, &PointSet::Hammersley.points(count, 0)),
+            How::Loop(count, Bits::Double) => loops::<Lanes>(grid, &PointSet::Hammersley.points(count, 0)),
+            How::Samples(sampler, set, count) => {
+                bake_in::<Singles>(GGX, grid, Work::Samples(sampler, &set.points(count, 0)))
+            }
+            How::Rule(name) => {
+                let integrator = Rule::named(name).unwrap_or(REFERENCE).integrator();
+                bake_in::<Singles>(GGX, grid, Work::Rule(&integrator))
+            }
+            How::Sum(count, summed) => sum(grid, &PointSet::Hammersley.points(count, 0), summed),
+        }
+    }
+}
+
+/// The truth and what the sum of the samples adds to it in f32, against the sum of the same in f64.
+fn sum(grid: &Grid, points: &[Point], summed: Summed) -> Vec<ScaleBias> {
+    let work = Work::Samples(Sampler::HalfVector, points);
+    let (single, double) = match summed {
+        Summed::OneByOne => (loops::<Singles>(grid, points), loops::<Lanes>(grid, points)),
+        Summed::InBlocks => (bake_in::<Singles>(GGX, grid, work), bake_in::<Lanes>(GGX, grid, work)),
+    };
+    let truth = crate::backend::cpu::bake(GGX, grid, &REFERENCE, &|_| ());
+    let off = |((truth, single), double): ((ScaleBias, ScaleBias), ScaleBias)| ScaleBias {
+        a: truth.a + single.a - double.a,
+        b: truth.b + single.b - double.b,
+    };
+    truth.into_iter().zip(single).zip(double).map(off).collect()
+}
+
+/// The textbook's loop over a grid.
+fn loops<V: Vector>(grid: &Grid, points: &[Point]) -> Vec<ScaleBias> {
+    let group = |alpha: f64, mus: &[f64]| {
+        let mu = V::gather(|i| mus[i.min(mus.len() - 1)]);
+        let ScaleBias { a, b } = vectorised(Loop { mu, alpha: V::from(alpha), points });
+        (0..mus.len()).map(|i| ScaleBias { a: a.lane(i), b: b.lane(i) }).collect::<Vec<_>>()
+    };
+    grid.alphas.iter().flat_map(|&alpha| grid.mus.chunks(V::LANES).flat_map(move |mus| group(alpha, mus))).collect()
+}
+
+struct Loop<'a, V> {
+    mu: V,
+    alpha: V,
+    points: &'a [Point],
+}
+
+impl<V: Vector> pulp::NullaryFnOnce for Loop<'_, V> {
+    type Output = ScaleBias<V>;
+
+    #[inline(always)]
+    fn call(self) -> ScaleBias<V> {
+        textbook_split_sum(self.mu, self.alpha, self.points)
+    }
+}
