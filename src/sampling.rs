@@ -142,7 +142,7 @@ impl<R: Real> View<R> {
     #[inline(always)]
     fn reflected(&self, x: R, z: R) -> Sample<R> {
         let vh = self.sv * x + self.mu * z;
-        let nl = vh * 2.0 * z - self.mu;
+        let nl = vh * (z * 2.0) - self.mu;
         Sample { nl, plane: vh * 2.0 * x - self.sv, vh, weight: self.cosine_visibility(nl) }
     }
 
@@ -172,7 +172,8 @@ macro_rules! mean {
                     let sample: Sample<R> = $sample;
                     let value = R::from(0.0).select_below(sample.nl, sample.weight * $weight, R::from(0.0));
                     let f = schlick_weight(sample.vh);
-                    block.add(value, ScaleBias { a: f.complement(), b: f });
+                    let b = value * f;
+                    block = ScaleBias { a: block.a + (value - b), b: block.b + b };
                 }
                 blocks.add(R::from(1.0), block);
             }

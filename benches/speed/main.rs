@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
 mod counted;
-mod hammersley;
 
 use counted::{Counted, operations};
 use splitsum::backend::vulkan::bake::bake as device_bake;
@@ -18,7 +17,9 @@ use splitsum::integrate::rule::{Method, REFERENCE, Rule};
 use splitsum::lut::{Dfg, DfgChannels, Grid, Lut};
 use splitsum::model::{Masking, Microfacet, Ndf};
 use splitsum::precision::Precision;
+use splitsum::quadrature::point_set::PointSet;
 use splitsum::request::Request;
+use splitsum::study::technique::{Arithmetic, BASELINE, Step, Technique};
 use std::process::Command;
 use std::time::Instant;
 
@@ -52,7 +53,6 @@ fn errors(values: impl Iterator<Item = [f64; 2]>, truth: &[ScaleBias]) -> [f64; 
 enum Values {
     Stored(Vec<f64>),
     Integrals(Vec<ScaleBias>),
-    Singles(Vec<[f32; 2]>),
 }
 
 impl Values {
@@ -60,7 +60,6 @@ impl Values {
         match self {
             Values::Stored(values) => values.chunks_exact(2).map(|texel| [texel[0], texel[1]]).collect(),
             Values::Integrals(integrals) => integrals.iter().map(pair).collect(),
-            Values::Singles(values) => values.iter().map(|texel| texel.map(f64::from)).collect(),
         }
     }
 }
@@ -82,21 +81,32 @@ fn main() {
 
 /// 512 x 512 against the baseline.
 fn tables() {
-    type Work<'a> = (&'a str, Box<dyn Fn() -> Values + 'a>);
+    type Work<'a> = (String, Box<dyn Fn() -> Values + 'a>);
     let grid = request(512, Precision::F16).grid().unwrap();
     let certified = |precision: Precision, tolerance: f64| {
         let task = Task { lut: &LUT, grid: &grid, precision, tolerance };
         Values::Stored(certify(&task, None, &|_| ()).unwrap().values)
     };
-    let by_rule = |name: &str| Values::Integrals(cpu::bake(LOBE, &grid, &Rule::named(name).unwrap(), &|_| ()));
-    let baseline = || Values::Singles(hammersley::bake(&grid.mus, &grid.alphas));
+    let by_step = |step: Step, arithmetic| Values::Integrals(step.run(LOBE, &grid, arithmetic, 0).unwrap());
     let mut works: Vec<Work> = vec![
-        ("1,024 samples, Hammersley, f32 (the baseline)", Box::new(baseline)),
-        ("certified, f16", Box::new(|| certified(Precision::F16, 1e-6))),
-        ("certified, f32 within 1e-5", Box::new(|| certified(Precision::F32, 1e-5))),
+        ("1,024 samples, Hammersley, f32 (the baseline)".into(), Box::new(|| by_step(BASELINE, Arithmetic::F32))),
+        ("certified, f16".into(), Box::new(|| certified(Precision::F16, 1e-6))),
+        ("certified, f32 within 1e-5".into(), Box::new(|| certified(Precision::F32, 1e-5))),
     ];
-    for name in ["s640", "s2304", "l288", "l512", "l4608", "h56", "h288", "h640"] {
-        works.push((name, Box::new(move || by_rule(name))));
+    for technique in Technique::all() {
+        for step in technique.steps(LOBE) {
+            let name = format!("{}, {}", technique.name(), step.name());
+            match step {
+                Step::Samples(_, PointSet::Hammersley, 1024) if step != BASELINE => {
+                    works.push((format!("{name}, f32"), Box::new(move || by_step(step, Arithmetic::F32))));
+                }
+                // What takes longer than certification tells nothing.
+                Step::Rule(rule) if rule.evaluations(grid.len()) <= 1000 * grid.len() => {
+                    works.push((name, Box::new(move || by_step(step, Arithmetic::F64))));
+                }
+                _ => (),
+            }
+        }
     }
     let truth = cpu::bake(LOBE, &grid, &Rule::named("d10240").unwrap(), &|_| ());
     let mut times = vec![Vec::new(); works.len()];

@@ -104,6 +104,12 @@ pub fn measure(lobe: Microfacet, largest: usize, share: Share) -> Result<Vec<Rea
     Ok(readings)
 }
 
+/// The smallest table with these axes whose lookups are at most `error` off.
+pub fn smallest(readings: &[Reading], axes: Axes, error: f64) -> Option<&Reading> {
+    let serves = |r: &&Reading| (r.x.as_str(), r.y.as_str()) == axes && r.errors.largest() <= error;
+    readings.iter().filter(serves).min_by_key(|reading| reading.bytes)
+}
+
 /// The measurements as lines of CSV.
 pub fn to_csv(readings: &[Reading]) -> String {
     let mut csv = String::from("x,y,size,precision,bytes,max_a,max_b,rms_a,rms_b\n");

@@ -99,6 +99,21 @@ fn shortest<const N: usize>(mut work: impl FnMut() -> Result<[f64; N]>) -> Resul
     Ok(best)
 }
 
+/// Every device, and the smallest size from which on it bakes faster than the CPU, its start included; none where it never does.
+pub fn pays(costs: &[Cost]) -> Vec<(&str, Option<usize>)> {
+    let of_cpu = |size| costs.iter().find(|cost| cost.way == Way::Cpu && cost.size == size).map(|cost| cost.seconds);
+    let slower = |cost: &Cost| of_cpu(cost.size).is_none_or(|seconds| cost.seconds >= seconds);
+    let mut devices: Vec<(&str, Option<usize>)> = Vec::new();
+    for cost in costs {
+        let Way::DeviceWithStart(name) = &cost.way else { continue };
+        match devices.iter_mut().find(|(device, _)| device == name) {
+            Some((_, from)) => *from = if slower(cost) { None } else { from.or(Some(cost.size)) },
+            None => devices.push((name, (!slower(cost)).then_some(cost.size))),
+        }
+    }
+    devices
+}
+
 /// The measurements as lines of CSV.
 pub fn to_csv(costs: &[Cost]) -> String {
     let mut csv = String::from("way,rule,size,seconds\n");

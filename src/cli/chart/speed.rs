@@ -14,6 +14,7 @@ use crate::study::size::Cost;
 use crate::study::speed::{Plan, Speed};
 use crate::study::technique::Technique;
 use crate::study::{Machine, lookup, size, speed};
+use crate::units::word;
 use serde::{Deserialize, Serialize};
 
 #[derive(clap::Args)]
@@ -86,24 +87,48 @@ pub fn run(arguments: &SpeedArgs) -> Result<()> {
     print(&summary(speed, machine))
 }
 
-/// The pictures and the table of the summary.
-fn page(Saved { machine, speed, .. }: &Saved) -> String {
-    let picture = |(title, name): (&str, &str)| format!("\n## {title}\n\n![{title}]({name}.png)\n");
-    let pictures = [
-        ("Error against time", "speed"),
-        ("Error against evaluations", "evaluations"),
-        ("What size a table needs", "lookup"),
-        ("Where a device begins to pay", "size"),
-    ];
+/// The pictures, each with what a reader would read off it.
+fn page(saved: &Saved) -> String {
+    let Saved { machine, speed, lookup, size, .. } = saved;
+    let picture = |title: &str, name: &str| format!("\n## {title}\n\n![{title}]({name}.png)\n\n");
     let devices: String =
         machine.devices.iter().map(|device| format!("; {} ({})", device.name, device.driver)).collect();
-    format!(
+    let mut text = format!(
         "# Speed against accuracy\n\nWritten by `splitsum chart speed` (splitsum {}{devices}); the numbers are in the `.csv` and `.json` \
-         files beside it.\n\n{}{}",
-        machine.version,
-        summary(speed, machine),
-        pictures.map(picture).concat()
-    )
+         files beside it.\n",
+        machine.version
+    );
+    text += &(picture("Error against time", "speed") + &summary(speed, machine));
+    text += &picture("Error against evaluations", "evaluations");
+    text += &(picture("What size a table needs", "lookup") + &sizes_needed(lookup));
+    text += &(picture("Where a device begins to pay", "size") + &devices_that_pay(size));
+    text
+}
+
+/// The smallest tables, as Markdown.
+fn sizes_needed(readings: &[Reading]) -> String {
+    const ERRORS: [f64; 5] = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3];
+    let heads = ERRORS.map(|error| format!(" {error:e} |")).concat();
+    let mut text = format!(
+        "KiB of the smallest table whose lookups are nowhere farther off\n\n| largest error |{heads}\n| --- |{}\n",
+        " --- |".repeat(ERRORS.len())
+    );
+    for axes in lookup::AXES {
+        let cell = |error| match lookup::smallest(readings, axes, error) {
+            Some(r) => format!(" {} ({} x {}, {}) |", r.bytes as f64 / 1024.0, r.size, r.size, word(r.precision)),
+            None => " none |".into(),
+        };
+        text += &format!("| `--x {} --y {}` |{}\n", axes.0, axes.1, ERRORS.map(cell).concat());
+    }
+    text
+}
+
+fn devices_that_pay(costs: &[Cost]) -> String {
+    let line = |(device, from): (&str, Option<usize>)| match from {
+        Some(size) => format!("{device} bakes faster than the CPU from {size} x {size} on, its start included.\n"),
+        None => format!("{device} never bakes faster than the CPU.\n"),
+    };
+    size::pays(costs).into_iter().map(line).collect()
 }
 
 impl SpeedArgs {

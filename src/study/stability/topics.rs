@@ -118,11 +118,11 @@ pub fn topics() -> Vec<Topic> {
         },
         Topic {
             name: "D of Blinn-Phong",
-            about: "n·h has seven digits, and (n·h)ⁿ multiplies what is lost by n: at n = 10⁷ more than a third of the peak. The power is \
+            about: "n·h has seven digits, and (n·h)ⁿ multiplies what is lost by n: at n = 10⁷ a fifth of the peak and more. The power is \
                     exp(-(n/2) ln(1 + tan² θ_h)) here, and the logarithm that of 1 plus a small number.",
             x: angle(),
             y: Scale::new("exponent n", 1.0, 1e7),
-            fails: 0.3,
+            fails: 0.2,
             holds: 2e-6,
             kind: Kind::Formula {
                 textbook: [|t, n| textbook_blinn_phong(nh(t), n), single!(|t, n| textbook_blinn_phong(nh(t), n))],
