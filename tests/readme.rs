@@ -33,3 +33,37 @@ fn the_commands_of_the_readme_work() {
     assert!(count >= 5, "only {count} commands found");
     assert!(folder.path().join("out/dfg.exr").exists());
 }
+
+#[test]
+fn figures_in_the_readme_are_those_of_the_run() {
+    let (readme, page) = (include_str!("../README.md"), include_str!("../docs/charts/speed.md"));
+    let begin = readme.find("| largest error |").unwrap();
+    let table = readme[begin..].lines().take_while(|line| line.starts_with('|'));
+    assert!(table.clone().count() > 5);
+    for line in table {
+        assert!(page.contains(line), "docs/charts/speed.md has no line '{line}'");
+    }
+}
+
+#[test]
+fn charts_are_drawn_from_the_measurements_beside_them() {
+    let charts = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/charts");
+    let folder = tempfile::tempdir().unwrap();
+    for study in ["speed", "stability"] {
+        let saved = charts.join(format!("{study}.json"));
+        let mut command = Command::new(env!("CARGO_BIN_EXE_splitsum"));
+        command.current_dir(&folder).args(["chart", study, "-q", "-o", ".", "--from"]).arg(saved);
+        assert!(command.output().unwrap().status.success());
+    }
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder.path()).unwrap() {
+        let name = entry.unwrap().file_name();
+        let read = |folder: &std::path::Path| std::fs::read(folder.join(&name)).unwrap();
+        // The edges of what is painted may differ by a shade where vector instructions do.
+        let painted = name.to_string_lossy().ends_with(".png");
+        let (drawn, kept) = (read(folder.path()), read(&charts));
+        assert!(painted || drawn == kept, "{name:?} is not what its measurements give");
+        count += 1;
+    }
+    assert!(count > 20, "{count}");
+}

@@ -1,5 +1,6 @@
 //! Where formulas and methods fail: their errors over angle and roughness, far into the corners, in f64, in f32 and on devices.
 
+mod maps;
 mod topics;
 mod ways;
 

@@ -164,6 +164,7 @@ const ERRORS: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-5];
 /// What a reader of the chart would read off it, as Markdown.
 fn summary(speed: &Speed, machine: &Machine) -> String {
     let cell = |value: Option<f64>| value.map_or("never".into(), |value| format!("{value:.2}"));
+    let times = |ratio: f64| if ratio < 10.0 { format!("{ratio:.1}") } else { format!("{ratio:.0}") };
     let heads = ERRORS.map(|error| format!(" {error:e} |")).concat();
     let mut text = format!(
         "{}, {} threads; {} x {}; the baseline took {:.2} ms\n\n\
@@ -186,7 +187,7 @@ fn summary(speed: &Speed, machine: &Machine) -> String {
             let cells = ERRORS.map(|error| {
                 let at = speed.at_error(peer, error);
                 match (at.peer, at.ours) {
-                    (Some(peer), Some(ours)) => format!(" {} ({:.0}) |", cell(Some(peer)), peer / ours),
+                    (Some(peer), Some(ours)) => format!(" {} ({}) |", cell(Some(peer)), times(peer / ours)),
                     (peer, _) => format!(" {} |", cell(peer)),
                 }
             });

@@ -1,23 +1,15 @@
 //! What is mapped: each formula as textbooks have it beside the one that is used here, each method, each way of storing.
 
 use super::ways::{GGX, METHODS, SUMS, Way};
-use super::{Family, Fault, Map, Scale, device_source, points};
-use crate::backend::cpu;
-use crate::backend::vulkan::evaluate::evaluate;
-use crate::backend::vulkan::gpu::Gpu;
-use crate::error::Result;
+use super::{Family, Scale};
 use crate::integrate::ScaleBias;
-use crate::integrate::rule::REFERENCE;
 use crate::lanes::{Real, Single};
-use crate::lut::Grid;
 use crate::model::beckmann::beckmann_smith;
 use crate::model::{Masking, Microfacet, Ndf};
-use crate::precision::Precision;
 use crate::study::textbook::{
     textbook_beckmann, textbook_beckmann_lambda, textbook_blinn_phong, textbook_ggx, textbook_sampled_slope,
     textbook_visibility,
 };
-use crate::units::word;
 use std::f64::consts::PI;
 
 /// Something that goes wrong, and what to do instead.
@@ -34,10 +26,10 @@ pub struct Topic {
     pub fails: f64,
     /// The last way on the CPU, which is ours in f32, and ours on devices are off by no more than this anywhere, without a fault.
     pub holds: f64,
-    kind: Kind,
+    pub(super) kind: Kind,
 }
 
-enum Kind {
+pub(super) enum Kind {
     /// A formula and ours, in f64 and in f32, and what is true; the same as WGSL, where a device has it.
     Formula {
         textbook: [Formula; 2],
@@ -53,7 +45,7 @@ enum Kind {
     Storage(Microfacet, fn(ScaleBias) -> f64),
 }
 
-type Formula = fn(f64, f64) -> f64;
+pub(super) type Formula = fn(f64, f64) -> f64;
 
 /// A formula in f32: arguments and result rounded.
 macro_rules! single {
@@ -313,91 +305,5 @@ impl Topic {
         let fails =
             if self.fails.is_finite() { format!("off by {:e} or more", self.fails) } else { "no number".into() };
         format!("The one is {fails}, the other never off by more than {:e}.", self.holds)
-    }
-
-    /// Its maps on the CPU.
-    pub fn maps(&self, size: [usize; 2]) -> Vec<Map> {
-        let (x, y) = (&self.x, &self.y);
-        let points = points(x, y, size);
-        let map = |variant: &str, cells: Vec<Cell>| Map::of((self.family(), self.name, variant), (x, y), size, &cells);
-        let truth = |lobe| cpu::bake(lobe, &self.grid(size), &REFERENCE, &|_| ());
-        match &self.kind {
-            Kind::Formula { textbook, ours, truth, relative, .. } => {
-                let variants = [
-                    ("textbook, f64", textbook[0]),
-                    ("textbook, f32", textbook[1]),
-                    ("ours, f64", ours[0]),
-                    ("ours, f32", ours[1]),
-                ];
-                let of = |(name, f): (&str, Formula)| {
-                    map(name, points.iter().map(|&(x, y)| cell(f(x, y), truth(x, y), *relative)).collect())
-                };
-                variants.map(of).into()
-            }
-            Kind::Tables(ways) => {
-                let truth = truth(GGX);
-                let of = |way: &Way| {
-                    let values = way.bake(&self.grid(size));
-                    map(way.name, values.into_iter().zip(&truth).map(|(value, truth)| cell_of(value, *truth)).collect())
-                };
-                ways.iter().map(of).collect()
-            }
-            Kind::Storage(lobe, value) => {
-                let truth = truth(*lobe);
-                let of = |precision: Precision| {
-                    let stored = |truth: &ScaleBias| cell(precision.nearest(value(*truth)), value(*truth), true);
-                    map(&word(precision), truth.iter().map(stored).collect())
-                };
-                [Precision::Unorm8, Precision::Unorm16, Precision::F16, Precision::F32].map(of).into()
-            }
-        }
-    }
-
-    /// Its maps on a device: of formulas that a device has.
-    pub fn maps_on(&self, gpu: &Gpu, size: [usize; 2]) -> Result<Vec<Map>> {
-        let Kind::Formula { truth, relative, device: Some((ndf, expressions)), .. } = &self.kind else {
-            return Ok(Vec::new());
-        };
-        let (x, y) = (&self.x, &self.y);
-        let points = points(x, y, size);
-        let arguments: Vec<[f32; 4]> = points.iter().map(|&(x, y)| [x as f32, y as f32, 0.0, 0.0]).collect();
-        let of = |(way, expression): (&str, &str)| {
-            let results = evaluate(gpu, &device_source(*ndf), expression, &[], &arguments)?;
-            let cells =
-                results.iter().zip(&points).map(|(result, &(x, y))| cell(result[0].into(), truth(x, y), *relative));
-            let variant = format!("{way}, {}", gpu.info().name);
-            Ok(Map::of((Family::Devices, self.name, &variant), (x, y), size, &cells.collect::<Vec<_>>()))
-        };
-        ["textbook", "ours"].into_iter().zip(*expressions).map(of).collect()
-    }
-
-    fn grid(&self, [columns, rows]: [usize; 2]) -> Grid {
-        let roughness = |j| self.y.value(j, rows);
-        let mus = (0..columns).map(|i| self.x.value(i, columns)).collect();
-        Grid::of(mus, (0..rows).map(|j| roughness(j) * roughness(j)).collect())
-    }
-}
-
-type Cell = std::result::Result<f64, Fault>;
-
-fn cell(value: f64, truth: f64, relative: bool) -> Cell {
-    match value {
-        _ if value.is_nan() => Err(Fault::Nan),
-        _ if value.is_infinite() => Err(Fault::Infinite),
-        _ if value < 0.0 => Err(Fault::Negative),
-        _ if relative => Ok(((value - truth) / truth).abs()),
-        _ => Ok((value - truth).abs()),
-    }
-}
-
-/// Of A and B; less than nothing and more than all by rounding alone is no fault.
-fn cell_of(value: ScaleBias, truth: ScaleBias) -> Cell {
-    const ROUNDING: f64 = 1e-5;
-    match value {
-        _ if value.e().is_nan() => Err(Fault::Nan),
-        _ if value.e().is_infinite() => Err(Fault::Infinite),
-        _ if value.a.min(value.b) < -ROUNDING => Err(Fault::Negative),
-        _ if value.e() > 1.0 + ROUNDING => Err(Fault::AboveOne),
-        _ => Ok((value.a - truth.a).abs().max((value.b - truth.b).abs())),
     }
 }
