@@ -31,7 +31,7 @@ struct Cli {
 enum Command {
     /// Bake a table, or all tables of a configuration
     Bake(Box<bake::BakeArgs>),
-    /// Draw a table
+    /// Draw a table, or measure methods and draw what they are worth
     #[command(subcommand)]
     Chart(Box<chart::ChartArgs>),
     /// Report how much energy a material gives back in a white furnace
@@ -52,7 +52,10 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let models = format!("Models of dfg, sheen and energy:\n{specular}\nModels of diffuse:\n{diffuse}\n{codes}");
     let command = Cli::command().after_help(&codes).mut_subcommands(|command| {
         let takes_models = ["bake", "chart", "furnace"].contains(&command.get_name());
-        let command = command.mut_subcommands(|command| command.after_help(&models));
+        let command = command.mut_subcommands(|command| {
+            let of_one_lobe = command.get_name() == "stability";
+            command.after_help(if of_one_lobe { &codes } else { &models })
+        });
         command.after_help(if takes_models { &models } else { &codes })
     });
     let cli = match command.try_get_matches_from(arguments).and_then(|matches| Cli::from_arg_matches(&matches)) {

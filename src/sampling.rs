@@ -23,7 +23,7 @@ use crate::lanes::Real;
 use crate::model::fresnel::schlick_weight;
 use crate::model::{Microfacet, Ndf};
 use crate::quadrature::point_set::Point;
-use std::f64::consts::{FRAC_1_PI, PI};
+use std::f64::consts::FRAC_1_PI;
 
 /// How a point of the unit square becomes a direction of light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -196,6 +196,3 @@ pub fn estimate<R: Real>(sampler: Sampler, view: &View<R>, points: &[Point], hal
         Sampler::BoundedVisible => mean!(points, p => p.weight, bounded_visible_sample(view, p)),
     }
 }
-
-/// 2π, the solid angle of all directions of light.
-const HEMISPHERE: f64 = 2.0 * PI;

@@ -75,16 +75,16 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Of values against the truth, pair by pair; NaN anywhere makes the largest infinite.
+    /// Of values against the truth, pair by pair; what is no finite number makes the largest f64::MAX, which JSON can hold.
     pub fn between(pairs: impl IntoIterator<Item = (ScaleBias, ScaleBias)>) -> Self {
         let (mut max, mut squares, mut count) = ([0.0f64; 2], [0.0; 2], 0.0f64);
         for (value, truth) in pairs {
             let scale = truth.e().max(1.0);
             for (i, (value, truth)) in [(value.a, truth.a), (value.b, truth.b)].into_iter().enumerate() {
                 let error = ((value - truth) / scale).abs();
-                let error = if error.is_nan() { f64::INFINITY } else { error };
+                let error = if error.is_finite() { error } else { f64::MAX };
                 max[i] = max[i].max(error);
-                squares[i] += error * error;
+                squares[i] = (squares[i] + error * error).min(f64::MAX);
             }
             count += 1.0;
         }

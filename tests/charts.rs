@@ -219,7 +219,13 @@ fn the_commands_measure_draw_and_draw_again() {
 fn what_makes_no_sense_is_refused() {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("wrong.json"), "{\"speed\": 3}").unwrap();
-    let cases: [(&str, i32, &str); 9] = [
+    // Maps with less errors than points, and without points.
+    let torn = STABILITY.replacen("\"size\":[7,5]", "\"size\":[7,6]", 1);
+    fs::write(folder.path().join("torn.json"), torn).unwrap();
+    fs::write(folder.path().join("empty.json"), STABILITY.replacen("\"size\":[7,5]", "\"size\":[0,5]", 1)).unwrap();
+    let cases: [(&str, i32, &str); 11] = [
+        ("chart stability --from torn.json -o .", 4, "an error for each point"),
+        ("chart stability --from empty.json -o .", 4, "an error for each point"),
         ("chart speed --size 8 --cpu", 4, "expected 16 to 512, got 8"),
         ("chart speed --model phong --cpu", 4, "expected one of ggx"),
         ("chart speed --masking neubelt --cpu", 4, "masking of ggx"),
@@ -237,5 +243,5 @@ fn what_makes_no_sense_is_refused() {
         let said = text.contains(words) || code == 5;
         assert!(output.status.code() == Some(code) && said, "{arguments}: {:?} {text}", output.status.code());
     }
-    assert_eq!(names(folder.path()), ["wrong.json"]);
+    assert_eq!(names(folder.path()), ["empty.json", "torn.json", "wrong.json"]);
 }

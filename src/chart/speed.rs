@@ -21,7 +21,8 @@ pub enum Against {
 
 /// The largest error of every method at every cost.
 ///
-/// A method's line joins the best of its marks: whatever point set and arithmetic reaches an error first.
+/// A method's line joins the best of its marks: whatever point set and arithmetic reaches an error first. The thin line through a mark
+/// runs from the shortest time to the longest.
 pub fn chart(speed: &Speed, machine: &Machine, against: Against) -> Drawing {
     let mut drawing = Drawing::new(1000.0, 770.0);
     let (model, masking, size) = (word(speed.plan.lobe.model), word(speed.plan.lobe.masking), speed.plan.size);
@@ -31,8 +32,12 @@ pub fn chart(speed: &Speed, machine: &Machine, against: Against) -> Drawing {
         }
         Against::Evaluations => ("Error against evaluations", "evaluations of the integrand for a texel"),
     };
+    let spread = match against {
+        Against::Time => ", a thin line its shortest and longest times",
+        Against::Evaluations => "",
+    };
     let about = format!(
-        "largest error of A and B over a {size} x {size} table, {model}, {masking}; the line of a method joins the best of its marks"
+        "A and B over a {size} x {size} table, {model}, {masking}; a method's line joins its best marks{spread}"
     );
     headed(&mut drawing, title, &about);
     let across = |m: &Measurement| if against == Against::Time { m.ratio } else { m.evaluations };
@@ -48,6 +53,8 @@ pub fn chart(speed: &Speed, machine: &Machine, against: Against) -> Drawing {
     let mut entries = Vec::new();
     for (technique, device) in lines(&shown) {
         let (kind, colour) = look(technique);
+        // Devices are told apart by their marks.
+        let kind = machine.devices.iter().position(|other| Some(other.name.as_str()) == device).map_or(kind, |i| i + 1);
         let own = |m: &&&Measurement| m.technique == technique && device_of(&m.who) == device;
         let own: Vec<&Measurement> = shown.iter().filter(own).copied().collect();
         let front = front(&own, across);
@@ -55,6 +62,10 @@ pub fn chart(speed: &Speed, machine: &Machine, against: Against) -> Drawing {
         for m in &own {
             let best = front.iter().any(|other| std::ptr::eq(*other, *m));
             let large = best || technique == Technique::Certified;
+            if large && against == Against::Time {
+                let (height, [least, most]) = (place(m).1, m.spread.map(|seconds| m.ratio * seconds / m.seconds));
+                drawing.line(vec![(x.place(least), height), (x.place(most), height)], colour, 0.8, false);
+            }
             drawing.mark(place(m), kind, if large { 4.5 } else { 2.2 }, colour, label(m));
         }
         let label = match device {

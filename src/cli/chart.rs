@@ -31,7 +31,7 @@ pub enum ChartArgs {
 /// What every study takes.
 #[derive(clap::Args)]
 pub struct StudyArgs {
-    /// Seconds instead of minutes: fewer points, smaller tables
+    /// Fewer points and smaller tables: seconds instead of minutes
     #[arg(long)]
     quick: bool,
     /// The one Vulkan device to measure, by UUID or a part of its name [default: all of them]
@@ -40,7 +40,7 @@ pub struct StudyArgs {
     /// Measure the CPU alone
     #[arg(long)]
     cpu: bool,
-    /// The folder for the charts, as SVG and PNG, and for the measurements, as CSV and JSON
+    /// The folder for the charts (SVG and PNG), a page about them (Markdown) and the measurements (JSON; of speed CSV too)
     #[arg(short, long, value_name = "FOLDER", default_value = "out")]
     output: String,
     /// Measure nothing, and draw what this JSON file of an earlier run holds

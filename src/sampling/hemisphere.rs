@@ -1,15 +1,15 @@
 //! Directions of light that know nothing of the lobe.
 
-use super::{HEMISPHERE, Sample, View};
+use super::{Sample, View};
 use crate::lanes::Real;
 use crate::quadrature::point_set::Point;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// pdf = 1/(2π).
 #[inline(always)]
 pub fn uniform_sample<R: Real>(view: &View<R>, point: &Point) -> Sample<R> {
     let z = 1.0 - point.v;
-    direct(view, point, z, (point.v * (1.0 + z)).sqrt(), HEMISPHERE)
+    direct(view, point, z, (point.v * (1.0 + z)).sqrt(), TAU)
 }
 
 /// pdf = n·l/π.

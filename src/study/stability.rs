@@ -127,8 +127,8 @@ impl Map {
         size: [usize; 2],
         cells: &[std::result::Result<f64, Fault>],
     ) -> Self {
-        // Three digits are enough for a colour, and for a reader.
-        let digits = |error: f64| format!("{error:.2e}").parse().unwrap_or(error);
+        // Three digits are enough for a colour, and for a reader; JSON holds no infinity.
+        let digits = |error: f64| format!("{:.2e}", error.min(1e300)).parse().unwrap_or(error);
         let fault = |(i, cell): (usize, &std::result::Result<f64, Fault>)| cell.err().map(|fault| (i, fault));
         Map {
             family,
@@ -142,6 +142,14 @@ impl Map {
         }
     }
 
+    /// Whether there is an error for each point, and no fault beyond them.
+    fn is_whole(&self) -> bool {
+        let [columns, rows] = self.size;
+        let points = columns.checked_mul(rows);
+        points.is_some_and(|points| points > 0 && points == self.errors.len())
+            && self.faults.iter().all(|(place, _)| *place < self.errors.len())
+    }
+
     /// The largest error where there is no fault.
     pub fn largest(&self) -> f64 {
         self.errors.iter().copied().fold(0.0, f64::max)
@@ -149,6 +157,11 @@ impl Map {
 }
 
 impl Stability {
+    /// Whether all maps have as many errors as points: what is read from a file may be anything.
+    pub fn is_whole(&self) -> bool {
+        self.maps.iter().all(Map::is_whole)
+    }
+
     /// What devices' own functions do, as Markdown.
     pub fn facts_table(&self) -> String {
         let mut devices: Vec<&str> = self.facts.iter().map(|fact| fact.device.as_str()).collect();

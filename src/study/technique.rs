@@ -165,8 +165,8 @@ impl Step {
             Step::Samples(_, _, count) => *count as f64,
             Step::StandIn(_) => 1.0,
             Step::Rule(rule) => of(*rule),
-            Step::Certified(Precision::F32) => Rule::for_cpu(lobe, 1e-6, texels).map_or(f64::NAN, of),
-            Step::Certified(_) => Rule::for_rounding(lobe, texels).map_or(f64::NAN, of),
+            Step::Certified(Precision::F32) => Rule::for_cpu(lobe, 1e-6, texels).map_or(0.0, of),
+            Step::Certified(_) => Rule::for_rounding(lobe, texels).map_or(0.0, of),
         }
     }
 

@@ -125,8 +125,8 @@ fn sizes_needed(readings: &[Reading]) -> String {
 
 fn devices_that_pay(costs: &[Cost]) -> String {
     let line = |(device, from): (&str, Option<usize>)| match from {
-        Some(size) => format!("{device} bakes faster than the CPU from {size} x {size} on, its start included.\n"),
-        None => format!("{device} never bakes faster than the CPU.\n"),
+        Some(size) => format!("- {device} bakes faster than the CPU from {size} x {size} on, its start included.\n"),
+        None => format!("- {device} never bakes faster than the CPU.\n"),
     };
     size::pays(costs).into_iter().map(line).collect()
 }

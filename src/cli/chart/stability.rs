@@ -5,7 +5,7 @@ use crate::chart::stability::chart;
 use crate::cli::progress::Progress;
 use crate::cli::{output, print};
 use crate::encode::metadata::TOOL;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::study::Machine;
 use crate::study::stability::{Family, Stability, measure, topics};
 use serde::{Deserialize, Serialize};
@@ -37,7 +37,14 @@ pub fn run(StabilityArgs { study }: &StabilityArgs) -> Result<()> {
     let files: Vec<String> = pictures.chain(["stability.json".into(), "stability.md".into()]).collect();
     let folder = study.folder(&files)?;
     let Saved { machine, stability, .. } = match &study.from {
-        Some(file) => read_study(file)?,
+        Some(file) => {
+            let saved: Saved = read_study(file)?;
+            if !saved.stability.is_whole() {
+                let (expected, got) = ("maps with an error for each point", "others");
+                return Err(Error::bad_input(file, expected, got, "measure anew"));
+            }
+            saved
+        }
         None => {
             let devices = study.devices()?;
             let progress = Progress::of_work("measuring", study.quiet);
