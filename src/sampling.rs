@@ -77,7 +77,7 @@ pub struct Sample<R> {
 }
 
 impl Sampler {
-    /// All of them.
+    /// All of them, in the order of their numbers.
     pub const ALL: [Sampler; 6] = [
         Sampler::Uniform,
         Sampler::Cosine,

@@ -25,12 +25,24 @@ pub enum Work<'a> {
 pub fn bake_in<V: Vector>(lobe: Microfacet, grid: &Grid, work: Work) -> Vec<ScaleBias> {
     match work {
         Work::Rule(integrator) => rows::<V, _>(lobe, grid, &integrator),
-        Work::Samples(Sampler::Uniform, points) => rows::<V, _>(lobe, grid, &Samples::<0>(points)),
-        Work::Samples(Sampler::Cosine, points) => rows::<V, _>(lobe, grid, &Samples::<1>(points)),
-        Work::Samples(Sampler::HalfVector, points) => rows::<V, _>(lobe, grid, &Samples::<2>(points)),
-        Work::Samples(Sampler::Visible, points) => rows::<V, _>(lobe, grid, &Samples::<3>(points)),
-        Work::Samples(Sampler::SphericalCap, points) => rows::<V, _>(lobe, grid, &Samples::<4>(points)),
-        Work::Samples(Sampler::BoundedVisible, points) => rows::<V, _>(lobe, grid, &Samples::<5>(points)),
+        Work::Samples(Sampler::Uniform, points) => {
+            rows::<V, _>(lobe, grid, &Samples::<{ Sampler::Uniform as usize }>(points))
+        }
+        Work::Samples(Sampler::Cosine, points) => {
+            rows::<V, _>(lobe, grid, &Samples::<{ Sampler::Cosine as usize }>(points))
+        }
+        Work::Samples(Sampler::HalfVector, points) => {
+            rows::<V, _>(lobe, grid, &Samples::<{ Sampler::HalfVector as usize }>(points))
+        }
+        Work::Samples(Sampler::Visible, points) => {
+            rows::<V, _>(lobe, grid, &Samples::<{ Sampler::Visible as usize }>(points))
+        }
+        Work::Samples(Sampler::SphericalCap, points) => {
+            rows::<V, _>(lobe, grid, &Samples::<{ Sampler::SphericalCap as usize }>(points))
+        }
+        Work::Samples(Sampler::BoundedVisible, points) => {
+            rows::<V, _>(lobe, grid, &Samples::<{ Sampler::BoundedVisible as usize }>(points))
+        }
         Work::StandIn(stand_in) => rows::<V, _>(lobe, grid, &stand_in),
     }
 }

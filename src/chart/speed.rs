@@ -83,12 +83,17 @@ pub fn chart(speed: &Speed, machine: &Machine, against: Against) -> Drawing {
     if let Some(m) = shown.iter().find(baseline) {
         drawing.ring(place(m), 9.0, INK);
     }
-    legend(&mut drawing, (40.0, 608.0), 7, &entries);
-    let (left, below) = (40.0 + 320.0 * (entries.len() / 7) as f64, 608.0 + 20.0 * (entries.len() % 7) as f64);
-    drawing.line(vec![(left, below), (left + 26.0, below)], GREY, 1.0, true);
-    drawing.text((left + 34.0, below + 4.5), "Pareto front", 12.0, Anchor::Start, INK);
-    drawing.ring((left + 13.0, below + 20.0), 7.0, INK);
-    drawing.text((left + 34.0, below + 24.5), "the baseline, which bakers take", 12.0, Anchor::Start, INK);
+    // Three columns, and two lines more that are no methods.
+    let rows = (entries.len() + 2).div_ceil(3).max(7);
+    legend(&mut drawing, (40.0, 608.0), rows, &entries);
+    let slot = |i: usize| (40.0 + 320.0 * (i / rows) as f64, 608.0 + 20.0 * (i % rows) as f64);
+    let (left, height) = slot(entries.len());
+    drawing.line(vec![(left, height), (left + 26.0, height)], GREY, 1.0, true);
+    drawing.text((left + 34.0, height + 4.5), "Pareto front", 12.0, Anchor::Start, INK);
+    let (left, height) = slot(entries.len() + 1);
+    drawing.ring((left + 13.0, height), 7.0, INK);
+    drawing.text((left + 34.0, height + 4.5), "the baseline, which bakers take", 12.0, Anchor::Start, INK);
+    drawing.height = 630.0 + 20.0 * rows as f64;
     footed(&mut drawing, machine);
     drawing
 }

@@ -28,7 +28,7 @@ impl StandIn {
         match self {
             StandIn::KarisMobile => "Karis 2014",
             StandIn::Lazarov => "Narkowicz 2014",
-            StandIn::Materialx => "2023",
+            StandIn::Materialx => "rational",
         }
     }
 
