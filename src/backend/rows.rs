@@ -25,23 +25,20 @@ pub enum Work<'a> {
 pub fn bake_in<V: Vector>(lobe: Microfacet, grid: &Grid, work: Work) -> Vec<ScaleBias> {
     match work {
         Work::Rule(integrator) => rows::<V, _>(lobe, grid, &integrator),
-        Work::Samples(Sampler::Uniform, points) => {
-            rows::<V, _>(lobe, grid, &Samples::<{ Sampler::Uniform as usize }>(points))
-        }
-        Work::Samples(Sampler::Cosine, points) => {
-            rows::<V, _>(lobe, grid, &Samples::<{ Sampler::Cosine as usize }>(points))
-        }
-        Work::Samples(Sampler::HalfVector, points) => {
-            rows::<V, _>(lobe, grid, &Samples::<{ Sampler::HalfVector as usize }>(points))
-        }
-        Work::Samples(Sampler::Visible, points) => {
-            rows::<V, _>(lobe, grid, &Samples::<{ Sampler::Visible as usize }>(points))
-        }
-        Work::Samples(Sampler::SphericalCap, points) => {
-            rows::<V, _>(lobe, grid, &Samples::<{ Sampler::SphericalCap as usize }>(points))
-        }
-        Work::Samples(Sampler::BoundedVisible, points) => {
-            rows::<V, _>(lobe, grid, &Samples::<{ Sampler::BoundedVisible as usize }>(points))
+        Work::Samples(sampler, points) => {
+            macro_rules! by {
+                ($sampler:ident) => {
+                    rows::<V, _>(lobe, grid, &Samples::<{ Sampler::$sampler as usize }>(points))
+                };
+            }
+            match sampler {
+                Sampler::Uniform => by!(Uniform),
+                Sampler::Cosine => by!(Cosine),
+                Sampler::HalfVector => by!(HalfVector),
+                Sampler::Visible => by!(Visible),
+                Sampler::SphericalCap => by!(SphericalCap),
+                Sampler::BoundedVisible => by!(BoundedVisible),
+            }
         }
         Work::StandIn(stand_in) => rows::<V, _>(lobe, grid, &stand_in),
     }

@@ -4,8 +4,8 @@ use crate::DeviceTest;
 use crate::common::{ggx, missing};
 use libtest_mimic::{Failed, Trial};
 use splitsum::axis::Axis;
-use splitsum::backend::shader::bake_kernel;
-use splitsum::backend::vulkan::bake::bake;
+use splitsum::backend::shader::{bake_kernel, samples_kernel};
+use splitsum::backend::vulkan::bake::{bake, bake_samples};
 use splitsum::backend::vulkan::devices::list_devices;
 use splitsum::backend::vulkan::gpu::{Gpu, GpuOptions};
 use splitsum::backend::{Backend, BackendChoice, cpu};
@@ -16,8 +16,10 @@ use splitsum::integrate::rule::{Method, RULES, Rule, f32_arithmetic};
 use splitsum::lut::{Energy, EnergyChannels, Grid, Lut};
 use splitsum::model::{Diffuse, Masking, Microfacet};
 use splitsum::precision::Precision;
+use splitsum::quadrature::point_set::PointSet;
 use splitsum::quadrature::slope_map::Power;
 use splitsum::request::{Accuracy, Request};
+use splitsum::sampling::Sampler;
 use splitsum::table::Difference;
 use splitsum::units::F0;
 use std::process::Command;
@@ -157,6 +159,10 @@ pub fn validated() -> Vec<Trial> {
                 let (rule, nodes) = finest();
                 let table = bake(&gpu, ggx(Masking::HeightCorrelated), &grid, &nodes, &|_| ())?.integrals;
                 cross_check(ggx(Masking::HeightCorrelated), &grid, &rule, &table)?;
+                // What compares methods, too.
+                let points = PointSet::Hammersley.points(16, 0);
+                bake_samples(&gpu, ggx(Masking::HeightCorrelated), &grid, Sampler::SphericalCap, &points)?;
+                splitsum::study::stability::measure([4, 3], std::slice::from_ref(&gpu), &|_| ())?;
                 assert_eq!(gpu.validation_messages(), Vec::<String>::new());
                 Ok(())
             }),
@@ -172,9 +178,11 @@ fn spirv_val() -> Trial {
     }
     Trial::test(name, || {
         for lobe in Microfacet::all() {
-            for power in [Power::Two, Power::Four] {
+            let bakes = [Power::Two, Power::Four].map(|power| bake_kernel(lobe.into(), power));
+            let samplers = Sampler::ALL.into_iter().filter(|sampler| sampler.runs_on_device(lobe));
+            for kernel in bakes.into_iter().chain(samplers.map(|sampler| samples_kernel(lobe, sampler))) {
                 let mut file = tempfile::NamedTempFile::new()?;
-                let spirv = bake_kernel(lobe.into(), power)?.spirv;
+                let spirv = kernel?.spirv;
                 std::io::Write::write_all(&mut file, bytemuck::cast_slice(&spirv))?;
                 let output = Command::new("spirv-val").args(["--target-env", "vulkan1.1"]).arg(file.path()).output()?;
                 if !output.status.success() {
