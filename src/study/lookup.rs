@@ -16,6 +16,9 @@ use serde::{Deserialize, Serialize};
 /// Places at which a renderer looks: spread evenly over n·v and perceptual roughness (the points of R2).
 pub const POINTS: usize = 4096;
 
+/// Seconds of one thread that a table may take: those of dear lobes end with smaller ones.
+const PATIENCE: f64 = 4.0;
+
 /// The axes of n·v and of roughness as words.
 pub type Axes = (&'static str, &'static str);
 
@@ -90,6 +93,9 @@ pub fn measure(lobe: Microfacet, largest: usize, share: Share) -> Result<Vec<Rea
             let grid = Grid::new(&axis(axes.0)?, &axis(axes.1)?)?;
             // Exact beside what lookups are off.
             let rule = Rule::for_cpu(lobe, 3e-6, grid.len()).unwrap_or(REFERENCE);
+            if rule.seconds(lobe, grid.len()) > PATIENCE {
+                break;
+            }
             let exact = cpu::bake(lobe, &grid, &rule, &|_| ());
             for precision in [Precision::F32, Precision::F16, Precision::Unorm16, Precision::Unorm8] {
                 let stored: Vec<ScaleBias> =

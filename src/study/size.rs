@@ -43,47 +43,70 @@ pub fn tolerance() -> f64 {
     Precision::F16.default_tolerance()
 }
 
-/// Sizes from 16 to `largest`, on the CPU and on these devices.
-pub fn measure(lobe: Microfacet, largest: usize, devices: &[GpuOptions], share: Share) -> Result<Vec<Cost>> {
-    let mut costs = Vec::new();
+/// Sizes from 16 to `largest`, on the CPU and on these devices; a way is left where its next size would take more than `patience`
+/// seconds.
+pub fn measure(
+    lobe: Microfacet,
+    largest: usize,
+    patience: f64,
+    devices: &[GpuOptions],
+    share: Share,
+) -> Result<Vec<Cost>> {
+    let cpu: [Bake; 2] = [Box::new(move |size| certified(lobe, size)), Box::new(move |size| on_cpu(lobe, size))];
+    let on_devices = devices.iter().map(|options| Box::new(move |size| on_device(lobe, size, options)) as Bake);
+    let mut bakes: Vec<(Bake, f64)> = cpu.into_iter().chain(on_devices).map(|bake| (bake, 0.0)).collect();
     let sizes: Vec<usize> =
         std::iter::successors(Some(16), |size| Some(2 * size)).take_while(|&n| n <= largest).collect();
     // The work grows with the texels, so that the last size takes three quarters of the time.
     let total: f64 = sizes.iter().map(|&size| (size * size) as f64).sum();
-    let mut done = 0.0;
+    let (mut costs, mut done) = (Vec::new(), 0.0);
     for size in sizes {
-        let grid = speed::grid(size)?;
-        let certified = Step::Certified(Precision::F16);
-        let [seconds] = shortest(|| {
-            let (values, seconds) = timed(|| certified.run(lobe, &grid, Arithmetic::F64, 0));
-            values.map(|_| [seconds])
-        })?;
-        costs.push(Cost { way: Way::Certified, rule: None, size, seconds });
-        if let Some(rule) = Rule::for_cpu(lobe, tolerance(), grid.len()) {
-            let [seconds] = shortest(|| Ok([timed(|| cpu::bake(lobe, &grid, &rule, &|_| ())).1]))?;
-            costs.push(Cost { way: Way::Cpu, rule: Some(rule.name.into()), size, seconds });
-        }
-        for options in devices {
-            let Some(Rule { name, method: Method::HSpace(rule), .. }) = Rule::for_device(lobe, tolerance()) else {
-                continue;
-            };
-            let mut device = String::new();
-            let [start, bake] = shortest(|| {
-                let (gpu, start) = timed(|| Gpu::open(options));
-                let gpu = gpu?;
-                device = Device::from(gpu.info()).name;
-                let (baked, bake) = timed(|| bake(&gpu, lobe, &grid, &rule, &|_| ()));
-                baked?;
-                Ok([start, bake])
-            })?;
-            let cost = |way, seconds| Cost { way, rule: Some(name.into()), size, seconds };
-            costs.push(cost(Way::DeviceWithStart(device.clone()), start + bake));
-            costs.push(cost(Way::Device(device), bake));
+        for (bake, last) in bakes.iter_mut().filter(|(_, last)| 4.0 * last <= patience) {
+            let new = bake(size)?;
+            *last = new.first().map_or(0.0, |cost: &Cost| cost.seconds);
+            costs.extend(new);
         }
         done += (size * size) as f64;
         share(done / total);
     }
     Ok(costs)
+}
+
+/// A size's costs, the largest first.
+type Bake<'a> = Box<dyn Fn(usize) -> Result<Vec<Cost>> + 'a>;
+
+fn certified(lobe: Microfacet, size: usize) -> Result<Vec<Cost>> {
+    let grid = speed::grid(size)?;
+    let [seconds] = shortest(|| {
+        let bake = || Step::Certified(Precision::F16).run(lobe, &grid, Arithmetic::F64, 0);
+        let (values, seconds) = timed(bake);
+        values.map(|_| [seconds])
+    })?;
+    Ok(vec![Cost { way: Way::Certified, rule: None, size, seconds }])
+}
+
+fn on_cpu(lobe: Microfacet, size: usize) -> Result<Vec<Cost>> {
+    let grid = speed::grid(size)?;
+    let Some(rule) = Rule::for_cpu(lobe, tolerance(), grid.len()) else { return Ok(Vec::new()) };
+    let [seconds] = shortest(|| Ok([timed(|| cpu::bake(lobe, &grid, &rule, &|_| ())).1]))?;
+    Ok(vec![Cost { way: Way::Cpu, rule: Some(rule.name.into()), size, seconds }])
+}
+
+fn on_device(lobe: Microfacet, size: usize, options: &GpuOptions) -> Result<Vec<Cost>> {
+    let grid = speed::grid(size)?;
+    let Some(Rule { name, method: Method::HSpace(rule), .. }) = Rule::for_device(lobe, tolerance()) else {
+        return Ok(Vec::new());
+    };
+    let mut device = String::new();
+    let [start, bake] = shortest(|| {
+        let (gpu, start) = timed(|| Gpu::open(options));
+        let gpu = gpu?;
+        device = Device::from(gpu.info()).name;
+        let (baked, bake) = timed(|| bake(&gpu, lobe, &grid, &rule, &|_| ()));
+        baked.map(|_| [start, bake])
+    })?;
+    let cost = |way, seconds| Cost { way, rule: Some(name.into()), size, seconds };
+    Ok(vec![cost(Way::DeviceWithStart(device.clone()), start + bake), cost(Way::Device(device), bake)])
 }
 
 /// The shortest times of three, part by part; of one where that took more than half a second.
@@ -102,7 +125,8 @@ fn shortest<const N: usize>(mut work: impl FnMut() -> Result<[f64; N]>) -> Resul
 /// Every device, and the smallest size from which on it bakes faster than the CPU, its start included; none where it never does.
 pub fn pays(costs: &[Cost]) -> Vec<(&str, Option<usize>)> {
     let of_cpu = |size| costs.iter().find(|cost| cost.way == Way::Cpu && cost.size == size).map(|cost| cost.seconds);
-    let slower = |cost: &Cost| of_cpu(cost.size).is_none_or(|seconds| cost.seconds >= seconds);
+    // Where the CPU was left for being slow, the device is not slower.
+    let slower = |cost: &Cost| of_cpu(cost.size).is_some_and(|seconds| cost.seconds >= seconds);
     let mut devices: Vec<(&str, Option<usize>)> = Vec::new();
     for cost in costs {
         let Way::DeviceWithStart(name) = &cost.way else { continue };

@@ -188,21 +188,23 @@ impl Run<'_> {
                 }
             }
         };
-        // The first warms up, and tells how many more are worth while.
+        // The first warms up, and tells how many more are worth while; where it is long, it counts.
         let Some((values, first)) = once()? else { return Ok(None) };
-        let repeats = if first > 0.2 {
-            1
-        } else if plan.quick || first > 0.05 {
-            3
-        } else {
-            5
+        let repeats = match first {
+            0.5.. => 0,
+            0.2.. => 1,
+            0.05.. => 3,
+            _ if plan.quick => 3,
+            _ => 5,
         };
-        let (mut times, mut baselines) = (Vec::new(), Vec::new());
-        for _ in 0..repeats {
-            baselines.push(timed(|| BASELINE.run(lobe, grid, Arithmetic::F32, plan.seed)).1);
-            if let Some((_, seconds)) = once()? {
+        let (mut times, mut baselines) = (if repeats == 0 { vec![first] } else { Vec::new() }, Vec::new());
+        for round in 0..=repeats {
+            if round > 0
+                && let Some((_, seconds)) = once()?
+            {
                 times.push(seconds);
             }
+            baselines.push(timed(|| BASELINE.run(lobe, grid, Arithmetic::F32, plan.seed)).1);
         }
         let spread = times.iter().fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], &t| [low.min(t), high.max(t)]);
         let (seconds, baseline) = (median(times), median(baselines));

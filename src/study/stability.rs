@@ -236,13 +236,15 @@ fn facts(gpu: &Gpu) -> Result<Vec<Fact>> {
         let angle = f64::from(angle[0]);
         (f64::from(result[0]) - libm::sin(angle)).abs().max((f64::from(result[1]) - libm::cos(angle)).abs())
     };
-    let sine = turns.iter().zip(&circular).map(off).fold(0.0, f64::max);
+    // NaN stays.
+    let worse = |worst: f64, error: f64| if error <= worst { worst } else { error };
+    let sine = turns.iter().zip(&circular).map(off).fold(0.0, worse);
     let exponents: Vec<[f32; 4]> = (0..4096).map(|i| [-20.0 * i as f32 / 4096.0, 1.0 + i as f32, 0.0, 0.0]).collect();
     let grown = at("vec4(exp(p.x), log(p.y), 0.0, 0.0)", &exponents)?;
     let relative = |value: f32, truth: f64| if truth == 0.0 { 0.0 } else { (f64::from(value) / truth - 1.0).abs() };
     let growth = |i: usize, f: fn(f64) -> f64| {
         let errors = exponents.iter().zip(&grown).map(|(p, result)| relative(result[i], f(p[i].into())));
-        errors.fold(0.0, f64::max)
+        errors.fold(0.0, worse)
     };
     let odd = at("vec4(pow(p.x, p.x), pow(p.x, p.y), p.z * 0.5, p.x / p.x)", &[[0.0, 5.0, 2e-38, 0.0]])?;
     let [power, fifth, half, quotient] = odd[0];

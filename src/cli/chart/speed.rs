@@ -154,7 +154,8 @@ fn measure(plan: Plan, study: &StudyArgs) -> Result<Saved> {
     };
     let speed = speed::measure(plan, &devices.open()?, &part(0.0, 0.5))?;
     let readings = lookup::measure(lobe, if quick { 64 } else { 256 }, &part(0.5, 0.6))?;
-    let costs = size::measure(lobe, if quick { 256 } else { 4096 }, &devices.options, &part(0.6, 1.0))?;
+    let (largest, patience) = if quick { (256, 1.0) } else { (4096, 30.0) };
+    let costs = size::measure(lobe, largest, patience, &devices.options, &part(0.6, 1.0))?;
     Ok(Saved { tool: TOOL.into(), machine, speed, lookup: readings, size: costs })
 }
 
@@ -167,11 +168,13 @@ fn summary(speed: &Speed, machine: &Machine) -> String {
     let times = |ratio: f64| if ratio < 10.0 { format!("{ratio:.1}") } else { format!("{ratio:.0}") };
     let heads = ERRORS.map(|error| format!(" {error:e} |")).concat();
     let mut text = format!(
-        "{}, {} threads; {} x {}; the baseline took {:.2} ms\n\n\
+        "{}, {} threads; {}, {}, {} x {}; the baseline took {:.2} ms\n\n\
          Time of the cheapest step that keeps an error, over the baseline; in brackets, how often ours fits in\n\n\
          | largest error |{heads}\n| --- |{}\n",
         machine.processor,
         machine.threads,
+        word(speed.plan.lobe.model),
+        word(speed.plan.lobe.masking),
         speed.plan.size,
         speed.plan.size,
         1e3 * speed.baseline_seconds,
