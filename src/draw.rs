@@ -110,11 +110,7 @@ impl Drawing {
     pub fn mark(&mut self, at: (f64, f64), kind: usize, radius: f64, colour: Colour, title: impl Into<String>) {
         // Corners and the angle of the first, in turns: disc, square, triangle, diamond, triangle upside down, hexagon.
         let (corners, first) = [(24, 0.0), (4, 0.125), (3, 0.75), (4, 0.0), (3, 0.25), (6, 0.0)][kind % 6];
-        let corner = |i: usize| {
-            let angle = std::f64::consts::TAU * (first + i as f64 / f64::from(corners));
-            (at.0 + radius * libm::cos(angle), at.1 + radius * libm::sin(angle))
-        };
-        let points = (0..corners as usize).map(corner).collect();
+        let points = polygon(at, radius, corners, first);
         let (line, fill, title) = (Some(([255; 3], 0.8)), Some(colour), title.into());
         self.shapes.push(Shape::Path { points, line, fill, dashed: false, title });
     }
@@ -126,11 +122,9 @@ impl Drawing {
 
     /// A ring around a place.
     pub fn ring(&mut self, at: (f64, f64), radius: f64, colour: Colour) {
-        let corner = |i: i32| {
-            let angle = std::f64::consts::TAU * f64::from(i) / 32.0;
-            (at.0 + radius * libm::cos(angle), at.1 + radius * libm::sin(angle))
-        };
-        self.line((0..=32).map(corner).collect(), colour, 1.2, false);
+        let mut points = polygon(at, radius, 32, 0.0);
+        points.push(points[0]);
+        self.line(points, colour, 1.2, false);
     }
 
     /// The drawing as SVG.
@@ -160,4 +154,13 @@ impl Drawing {
         };
         self.shapes.iter().filter_map(text_box).collect()
     }
+}
+
+/// The corners of a regular polygon around a place, the first at `first` of a turn.
+fn polygon(at: (f64, f64), radius: f64, corners: usize, first: f64) -> Vec<(f64, f64)> {
+    let corner = |i: usize| {
+        let angle = std::f64::consts::TAU * (first + i as f64 / corners as f64);
+        (at.0 + radius * libm::cos(angle), at.1 + radius * libm::sin(angle))
+    };
+    (0..corners).map(corner).collect()
 }

@@ -10,7 +10,10 @@ pub mod textbook;
 use crate::backend::vulkan::devices::DeviceInfo;
 use crate::integrate::ScaleBias;
 use crate::model::{Masking, Microfacet, Ndf};
+use crate::precision::Precision;
+use crate::units::word;
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// Who measured, and with what.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -58,6 +61,19 @@ impl From<Lobe> for Microfacet {
     }
 }
 
+impl fmt::Display for Lobe {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, {}", word(self.model), word(self.masking))
+    }
+}
+
+impl Machine {
+    /// The processor's name in the text of Linux's /proc/cpuinfo.
+    pub fn processor_in(cpuinfo: &str) -> Option<&str> {
+        cpuinfo.lines().find_map(|line| line.strip_prefix("model name")?.split(": ").nth(1))
+    }
+}
+
 impl From<&DeviceInfo> for Device {
     fn from(info: &DeviceInfo) -> Self {
         Device { name: info.name.clone(), driver: info.driver.clone() }
@@ -97,13 +113,19 @@ impl Errors {
     }
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
+/// Values as they are stored.
+fn stored(values: &[ScaleBias], precision: Precision) -> Vec<ScaleBias> {
+    values.iter().map(|v| ScaleBias { a: precision.nearest(v.a), b: precision.nearest(v.b) }).collect()
+}
+
+/// The value in the middle; NaN where there is none.
+pub fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 /// The result of some work, and the seconds it took.
-fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+pub fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
     let start = std::time::Instant::now();
     let result = work();
     (result, start.elapsed().as_secs_f64())

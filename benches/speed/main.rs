@@ -20,8 +20,8 @@ use splitsum::precision::Precision;
 use splitsum::quadrature::point_set::PointSet;
 use splitsum::request::Request;
 use splitsum::study::technique::{Arithmetic, BASELINE, Step, Technique};
+use splitsum::study::{Errors, Machine, median, timed};
 use std::process::Command;
-use std::time::Instant;
 
 const LOBE: Microfacet = Microfacet { ndf: Ndf::Ggx, masking: Masking::HeightCorrelated };
 const LUT: Lut = Lut::Dfg(Dfg { lobe: LOBE, channels: DfgChannels::Ab });
@@ -31,24 +31,6 @@ fn request(size: usize, precision: Precision) -> Request {
     Request::with_default_axes(LUT, (size, size), precision).unwrap()
 }
 
-fn seconds<T>(work: impl FnOnce() -> T) -> (f64, T) {
-    let start = Instant::now();
-    let result = work();
-    (start.elapsed().as_secs_f64(), result)
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
-}
-
-/// The largest errors of A and of B.
-fn errors(values: impl Iterator<Item = [f64; 2]>, truth: &[ScaleBias]) -> [f64; 2] {
-    values.zip(truth).fold([0.0, 0.0], |[a, b]: [f64; 2], (value, truth)| {
-        [a.max((value[0] - truth.a).abs()), b.max((value[1] - truth.b).abs())]
-    })
-}
-
 /// A table as it comes out of a work.
 enum Values {
     Stored(Vec<f64>),
@@ -56,21 +38,20 @@ enum Values {
 }
 
 impl Values {
-    fn pairs(&self) -> Vec<[f64; 2]> {
+    /// How far they are off.
+    fn errors(&self, truth: &[ScaleBias]) -> [f64; 2] {
+        let truth = truth.iter().copied();
+        let texel = |ab: &[f64]| ScaleBias { a: ab[0], b: ab[1] };
         match self {
-            Values::Stored(values) => values.chunks_exact(2).map(|texel| [texel[0], texel[1]]).collect(),
-            Values::Integrals(integrals) => integrals.iter().map(pair).collect(),
+            Values::Stored(values) => Errors::between(values.chunks_exact(2).map(texel).zip(truth)).max,
+            Values::Integrals(integrals) => Errors::between(integrals.iter().copied().zip(truth)).max,
         }
     }
 }
 
-fn pair(value: &ScaleBias) -> [f64; 2] {
-    [value.a, value.b]
-}
-
 fn main() {
     let processor = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let name = processor.lines().find_map(|line| line.strip_prefix("model name")?.split(": ").nth(1));
+    let name = Machine::processor_in(&processor);
     let threads = rayon::current_num_threads();
     println!("CPU: {}, {threads} threads; splitsum {}\n", name.unwrap_or("unknown"), env!("CARGO_PKG_VERSION"));
     tables();
@@ -114,7 +95,7 @@ fn tables() {
         for (times, (_, work)) in times.iter_mut().zip(&works) {
             // Once to warm up: what ran before has cooled the caches and put the threads to sleep.
             drop(work());
-            times.push(seconds(work).0);
+            times.push(timed(work).1);
         }
     }
     println!(
@@ -122,7 +103,7 @@ fn tables() {
     );
     let base = median(times[0].clone());
     for ((name, work), times) in works.iter().zip(times) {
-        let (time, [a, b]) = (median(times), errors(work().pairs().into_iter(), &truth));
+        let (time, [a, b]) = (median(times), work().errors(&truth));
         println!("| {name} | {:.1} | {:.3} | {a:.1e} | {b:.1e} |", 1e3 * time, time / base);
     }
     println!();
@@ -135,7 +116,7 @@ fn evaluations() {
     println!("| rule, 64 x 64 | evaluations for a texel | error of A | of B |\n| --- | --- | --- | --- |");
     for name in ["h56", "h130", "l288", "s640", "h288", "h640", "l512", "s2304", "l4608"] {
         let rule = Rule::named(name).unwrap();
-        let [a, b] = errors(cpu::bake(LOBE, &grid, &rule, &|_| ()).iter().map(pair), &truth);
+        let [a, b] = Values::Integrals(cpu::bake(LOBE, &grid, &rule, &|_| ())).errors(&truth);
         println!("| `{name}` | {:.0} | {a:.1e} | {b:.1e} |", rule.evaluations(grid.len()) as f64 / grid.len() as f64);
     }
     println!();
@@ -149,7 +130,7 @@ fn processes() {
         let run = |_| {
             let mut command = Command::new(env!("CARGO_BIN_EXE_splitsum"));
             command.current_dir(&folder).args(["bake", "--backend", "cpu", "-q", "-o", "x.exr", "--size", size]);
-            let (time, status) = seconds(|| command.status());
+            let (status, time) = timed(|| command.status());
             assert!(status.unwrap().success());
             time
         };
@@ -172,10 +153,10 @@ fn devices() {
         let options = GpuOptions { device: Some(device.uuid.clone()), ..GpuOptions::default() };
         for name in ["h56", "h288", "h640"] {
             let Method::HSpace(rule) = Rule::named(name).unwrap().method else { continue };
-            let (start, gpu) = seconds(|| Gpu::open(&options));
+            let (gpu, start) = timed(|| Gpu::open(&options));
             let Ok(gpu) = gpu else { continue };
             let run = |_| {
-                let (wall, baked) = seconds(|| device_bake(&gpu, LOBE, &grid, &rule, &|_| ()).unwrap());
+                let (baked, wall) = timed(|| device_bake(&gpu, LOBE, &grid, &rule, &|_| ()).unwrap());
                 (wall, baked.device_seconds)
             };
             let runs: Vec<(f64, Option<f64>)> = (0..7).map(run).collect();
@@ -194,7 +175,7 @@ fn devices() {
         }
     }
     let backend = Backend::cpu();
-    let (time, baked) = seconds(|| splitsum::bake(&request(512, Precision::F16), &backend, &|_| ()).unwrap());
+    let (baked, time) = timed(|| splitsum::bake(&request(512, Precision::F16), &backend, &|_| ()).unwrap());
     let hash = baked.report.certificate().map(|certificate| certificate.blake3.clone()).unwrap_or_default();
     println!("\nThe certified table of 512 x 512 in half: {:.1} ms on the CPU, BLAKE3 {hash}", 1e3 * time);
 }

@@ -24,7 +24,7 @@ pub enum Work<'a> {
 /// (A, B) at every point of the grid, in its order.
 pub fn bake_in<V: Vector>(lobe: Microfacet, grid: &Grid, work: Work) -> Vec<ScaleBias> {
     match work {
-        Work::Rule(integrator) => rows::<V, _>(lobe, grid, &integrator),
+        Work::Rule(integrator) => rows::<V, _>(lobe, grid, integrator),
         Work::Samples(sampler, points) => {
             macro_rules! by {
                 ($sampler:ident) => {
@@ -45,19 +45,17 @@ pub fn bake_in<V: Vector>(lobe: Microfacet, grid: &Grid, work: Work) -> Vec<Scal
 }
 
 /// A method by its type, so that the loop over a row is compiled for it alone: together they are too large to be optimised.
-trait Method: Sync {
+pub trait Method: Sync {
     /// What all texels of a row share.
-    fn share(&self, lobe: Microfacet, alpha: f64) -> Vec<HalfVector>;
+    fn share(&self, _: Microfacet, _: f64) -> Vec<HalfVector> {
+        Vec::new()
+    }
 
     /// A texel, or as many as there are lanes.
     fn texel<R: Real>(&self, shared: &[HalfVector], lobe: Microfacet, mu: R, alpha: R) -> ScaleBias<R>;
 }
 
-impl Method for &Integrator {
-    fn share(&self, _: Microfacet, _: f64) -> Vec<HalfVector> {
-        Vec::new()
-    }
-
+impl Method for Integrator {
     #[inline(always)]
     fn texel<R: Real>(&self, _: &[HalfVector], lobe: Microfacet, mu: R, alpha: R) -> ScaleBias<R> {
         self.quadrature(lobe, mu, alpha)
@@ -65,10 +63,6 @@ impl Method for &Integrator {
 }
 
 impl Method for StandIn {
-    fn share(&self, _: Microfacet, _: f64) -> Vec<HalfVector> {
-        Vec::new()
-    }
-
     #[inline(always)]
     fn texel<R: Real>(&self, _: &[HalfVector], _: Microfacet, mu: R, alpha: R) -> ScaleBias<R> {
         self.evaluate(mu, alpha)
@@ -92,7 +86,8 @@ impl<const SAMPLER: usize> Method for Samples<'_, SAMPLER> {
     }
 }
 
-fn rows<V: Vector, M: Method>(lobe: Microfacet, grid: &Grid, method: &M) -> Vec<ScaleBias> {
+/// (A, B) at every point of the grid by one method.
+pub fn rows<V: Vector, M: Method>(lobe: Microfacet, grid: &Grid, method: &M) -> Vec<ScaleBias> {
     let mut integrals = vec![ScaleBias::default(); grid.len()];
     integrals.par_chunks_mut(grid.mus.len()).zip(&grid.alphas).for_each(|(texels, &alpha)| {
         if alpha == 0.0 {

@@ -12,9 +12,7 @@ use crate::units::word;
 pub fn chart(readings: &[Reading], lobe: Lobe, machine: &Machine) -> Drawing {
     let mut drawing = Drawing::new(1000.0, 620.0);
     let about = format!(
-        "error of A and B as a renderer reads them, bilinearly, at places spread evenly over n\u{b7}v and roughness; {}, {}",
-        word(lobe.model),
-        word(lobe.masking)
+        "error of A and B as a renderer reads them, bilinearly, at places spread evenly over n\u{b7}v and roughness; {lobe}"
     );
     headed(&mut drawing, "What size a table needs", &about);
     type Of = fn(&Errors) -> f64;

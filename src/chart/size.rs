@@ -5,15 +5,12 @@ use crate::draw::axes::{Decades, draw};
 use crate::draw::{Colour, Drawing};
 use crate::study::size::{Cost, Way};
 use crate::study::{Lobe, Machine};
-use crate::units::word;
 
 /// Milliseconds of a table against its texels.
 pub fn chart(costs: &[Cost], lobe: Lobe, machine: &Machine) -> Drawing {
     let mut drawing = Drawing::new(1000.0, 560.0);
     let about = format!(
-        "{}, {}; where no certificate is asked for, the integrals are within 2\u{207b}\u{b9}\u{2076}; every time is the shortest of three",
-        word(lobe.model),
-        word(lobe.masking)
+        "{lobe}; where no certificate is asked for, the integrals are within 2\u{207b}\u{b9}\u{2076}; every time is the shortest of three"
     );
     headed(&mut drawing, "Where a device begins to pay", &about);
     let x = Decades::around(costs.iter().map(|cost| cost.size as f64), 82.0, 640.0);

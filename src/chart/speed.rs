@@ -25,7 +25,7 @@ pub enum Against {
 /// runs from the shortest time to the longest.
 pub fn chart(speed: &Speed, machine: &Machine, against: Against) -> Drawing {
     let mut drawing = Drawing::new(1000.0, 770.0);
-    let (model, masking, size) = (word(speed.plan.lobe.model), word(speed.plan.lobe.masking), speed.plan.size);
+    let (lobe, size) = (speed.plan.lobe, speed.plan.size);
     let (title, name) = match against {
         Against::Time => {
             ("Error against time", "time, over that of 1,024 half vectors by Hammersley's points in the same run")
@@ -36,9 +36,7 @@ pub fn chart(speed: &Speed, machine: &Machine, against: Against) -> Drawing {
         Against::Time => ", a thin line its shortest and longest times",
         Against::Evaluations => "",
     };
-    let about = format!(
-        "A and B over a {size} x {size} table, {model}, {masking}; a method's line joins its best marks{spread}"
-    );
+    let about = format!("A and B over a {size} x {size} table, {lobe}; a method's line joins its best marks{spread}");
     headed(&mut drawing, title, &about);
     let across = |m: &Measurement| if against == Against::Time { m.ratio } else { m.evaluations };
     // Devices' evaluations are those of the CPU.

@@ -5,16 +5,17 @@ mod stability;
 mod table;
 
 use super::output;
+use super::progress::Progress;
 use super::table_args::{DEFAULT_OUTPUT, TableArgs};
 use crate::backend::vulkan::devices::{DeviceInfo, list_devices};
 use crate::backend::vulkan::gpu::{Gpu, GpuOptions};
 use crate::draw::Drawing;
-use crate::encode::png::encode_rgb;
+use crate::encode::metadata::TOOL;
 use crate::error::{Error, Result};
 use crate::study::{Device, Machine};
 use clap::Subcommand;
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::Path;
 
@@ -51,6 +52,15 @@ pub struct StudyArgs {
     quiet: bool,
 }
 
+/// What is saved beside the charts.
+#[derive(Serialize, Deserialize)]
+struct Saved<T> {
+    tool: String,
+    machine: Machine,
+    #[serde(flatten)]
+    measured: T,
+}
+
 /// The Vulkan devices of a study.
 struct Devices {
     infos: Vec<DeviceInfo>,
@@ -77,6 +87,23 @@ impl StudyArgs {
         Ok(folder.into())
     }
 
+    /// What an earlier run saved, or what `measure` measures, saved at `path`.
+    fn saved<T: Serialize + DeserializeOwned>(
+        &self,
+        path: &str,
+        measure: impl FnOnce(&Devices, &Progress) -> Result<T>,
+    ) -> Result<Saved<T>> {
+        if let Some(file) = &self.from {
+            return read_study(file);
+        }
+        let devices = self.devices()?;
+        let measured = measure(&devices, &Progress::of_work("measuring", self.quiet))?;
+        let saved = Saved { tool: TOOL.into(), machine: devices.machine(), measured };
+        let json = serde_json::to_string(&saved).map_err(|error| Error::Internal(error.to_string()))?;
+        output::write(path, json.as_bytes())?;
+        Ok(saved)
+    }
+
     /// The devices to measure: none where there is no driver, or none is wanted.
     fn devices(&self) -> Result<Devices> {
         let named = |device: &str| GpuOptions { device: Some(device.into()), ..GpuOptions::default() };
@@ -97,9 +124,9 @@ impl Devices {
 
     fn machine(&self) -> Machine {
         let about = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-        let name = about.lines().find_map(|line| line.strip_prefix("model name")?.split(": ").nth(1));
         Machine {
-            processor: name.map_or_else(|| format!("{} processor", std::env::consts::ARCH), str::to_owned),
+            processor: Machine::processor_in(&about)
+                .map_or_else(|| format!("{} processor", std::env::consts::ARCH), str::to_owned),
             threads: rayon::current_num_threads(),
             devices: self.infos.iter().map(Device::from).collect(),
             version: env!("CARGO_PKG_VERSION").into(),
@@ -109,17 +136,11 @@ impl Devices {
 
 /// Writes a drawing as `name`.svg and `name`.png, the latter with twice the pixels, for sharp screens.
 fn write_drawing(folder: &str, name: &str, drawing: &Drawing) -> Result<()> {
-    let picture = drawing.to_picture(2.0)?;
     output::write(&format!("{folder}/{name}.svg"), drawing.to_svg()?.as_bytes())?;
-    output::write(&format!("{folder}/{name}.png"), &encode_rgb(picture.width, picture.height, &picture.rgb)?)
+    output::write_picture(&format!("{folder}/{name}.png"), &drawing.to_picture(2.0)?)
 }
 
-fn write_json(path: &str, study: &impl Serialize) -> Result<()> {
-    let json = serde_json::to_string(study).map_err(|error| Error::Internal(error.to_string()))?;
-    output::write(path, json.as_bytes())
-}
-
-/// Reads what [`write_json`] wrote.
+/// Reads what [`StudyArgs::saved`] wrote.
 fn read_study<T: DeserializeOwned>(path: &str) -> Result<T> {
     let text = fs::read_to_string(path).map_err(output::failed("read", path, "name the .json of an earlier run"))?;
     serde_json::from_str(&text).map_err(|error| {

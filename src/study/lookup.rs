@@ -1,6 +1,6 @@
 //! What a renderer reads from a table: how far bilinear lookup is from the integral, by size, axes and storage.
 
-use super::{Errors, Share};
+use super::{Errors, Share, stored};
 use crate::axis::{Axis, AxisSpec};
 use crate::backend::cpu;
 use crate::error::Result;
@@ -33,6 +33,12 @@ pub const AXES: [Axes; 5] = [
     ("nov,sqrt", "roughness"),
     ("nov,sqrt,edges", "roughness,edges"),
 ];
+
+/// The axes of that many texels each.
+pub fn axes_of(axes: Axes, size: usize) -> Result<(Axis, Axis)> {
+    let axis = |words: &str| Axis::new(words.parse::<AxisSpec>()?, size);
+    Ok((axis(axes.0)?, axis(axes.1)?))
+}
 
 /// A table of a size, with axes and a storage, as it was found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -69,8 +75,7 @@ impl Lookup {
 
     /// How far a table with these values, n·v varying fastest, is off.
     pub fn of(&self, lobe: Microfacet, axes: Axes, size: usize, values: &[ScaleBias]) -> Result<Errors> {
-        let axis = |words: &str| Axis::new(words.parse::<AxisSpec>()?, size);
-        let (x, y) = (axis(axes.0)?, axis(axes.1)?);
+        let (x, y) = axes_of(axes, size)?;
         let lut = Lut::Dfg(Dfg { lobe, channels: DfgChannels::Ab });
         let values = values.iter().flat_map(|v| [v.a, v.b]).collect();
         let table = Grid::new(&x, &y)?.table(lut.channels(), (x, y), values, lut.provenance());
@@ -89,8 +94,8 @@ pub fn measure(lobe: Microfacet, largest: usize, share: Share) -> Result<Vec<Rea
     let mut readings = Vec::new();
     for (done, axes) in AXES.into_iter().enumerate() {
         for size in std::iter::successors(Some(8), |size| Some(2 * size)).take_while(|&size| size <= largest) {
-            let axis = |words: &str| Axis::new(words.parse::<AxisSpec>()?, size);
-            let grid = Grid::new(&axis(axes.0)?, &axis(axes.1)?)?;
+            let (x, y) = axes_of(axes, size)?;
+            let grid = Grid::new(&x, &y)?;
             // Exact beside what lookups are off.
             let rule = Rule::for_cpu(lobe, 3e-6, grid.len()).unwrap_or(REFERENCE);
             if rule.seconds(lobe, grid.len()) > PATIENCE {
@@ -98,9 +103,7 @@ pub fn measure(lobe: Microfacet, largest: usize, share: Share) -> Result<Vec<Rea
             }
             let exact = cpu::bake(lobe, &grid, &rule, &|_| ());
             for precision in [Precision::F32, Precision::F16, Precision::Unorm16, Precision::Unorm8] {
-                let stored: Vec<ScaleBias> =
-                    exact.iter().map(|v| ScaleBias { a: precision.nearest(v.a), b: precision.nearest(v.b) }).collect();
-                let errors = lookup.of(lobe, axes, size, &stored)?;
+                let errors = lookup.of(lobe, axes, size, &stored(&exact, precision))?;
                 let bytes = 2 * precision.bytes() * size * size;
                 readings.push(Reading { x: axes.0.into(), y: axes.1.into(), size, precision, bytes, errors });
             }

@@ -1,6 +1,6 @@
 //! Cost against the size of a table, on the CPU and on devices with and without their start: where a device begins to pay.
 
-use super::{Device, Share, speed, timed};
+use super::{Share, speed, timed};
 use crate::backend::cpu;
 use crate::backend::vulkan::bake::bake;
 use crate::backend::vulkan::gpu::{Gpu, GpuOptions};
@@ -101,7 +101,7 @@ fn on_device(lobe: Microfacet, size: usize, options: &GpuOptions) -> Result<Vec<
     let [start, bake] = shortest(|| {
         let (gpu, start) = timed(|| Gpu::open(options));
         let gpu = gpu?;
-        device = Device::from(gpu.info()).name;
+        device = gpu.info().name.clone();
         let (baked, bake) = timed(|| bake(&gpu, lobe, &grid, &rule, &|_| ()));
         baked.map(|_| [start, bake])
     })?;

@@ -2,8 +2,7 @@
 
 use super::lookup::{self, Lookup};
 use super::technique::{Arithmetic, BASELINE, Step, Technique};
-use super::{Device, Errors, Lobe, Share, median, timed};
-use crate::axis::{Axis, AxisSpec, Parameter};
+use super::{Errors, Lobe, Share, median, stored, timed};
 use crate::backend::cpu;
 use crate::backend::vulkan::gpu::Gpu;
 use crate::error::Result;
@@ -87,8 +86,8 @@ const PATIENCE: [f64; 2] = [0.7, 0.06];
 
 /// The grid of a plan.
 pub fn grid(size: usize) -> Result<Grid> {
-    let axis = |parameter| Axis::new(AxisSpec::of(parameter), size);
-    Grid::new(&axis(Parameter::Nov)?, &axis(Parameter::Roughness)?)
+    let (x, y) = lookup::axes_of(lookup::CENTRES, size)?;
+    Grid::new(&x, &y)
 }
 
 /// Measures everything that the plan names on the CPU and on the devices.
@@ -101,17 +100,19 @@ pub fn measure(plan: Plan, devices: &[Gpu], share: Share) -> Result<Speed> {
     let turns = techniques.len() * (2 + devices.len());
     let mut done = 0;
     for technique in techniques {
-        let mut whos: Vec<(Who, Option<&Gpu>)> =
-            [Arithmetic::F32, Arithmetic::F64].map(|arithmetic| (Who::Cpu(arithmetic), None)).into();
-        whos.extend(devices.iter().map(|gpu| (Who::Device(Device::from(gpu.info()).name), Some(gpu))));
-        for (who, gpu) in whos {
-            let mut budget = Budget::default();
+        let cpu = [Arithmetic::F32, Arithmetic::F64].map(Runner::Cpu);
+        for runner in cpu.into_iter().chain(devices.iter().map(Runner::Device)) {
+            // What a point cost in the last step: points are left when they would take too long.
+            let mut each = 0.0;
             for step in technique.steps(lobe) {
-                if !run.wants(&step, &who) || !budget.allows(&step, run.patience()) {
+                let points = if let Step::Samples(_, _, count) = step { count as f64 } else { 0.0 };
+                if !run.wants(&step, runner) || each * points > run.patience() {
                     continue;
                 }
-                if let Some((measurement, baseline)) = run.measure(technique, &step, &who, gpu)? {
-                    budget.spent(&step, measurement.seconds);
+                if let Some((measurement, baseline)) = run.measure(technique, &step, runner)? {
+                    if points > 0.0 {
+                        each = measurement.seconds / points;
+                    }
                     baselines.push(baseline);
                     speed.measurements.push(measurement);
                 }
@@ -124,23 +125,18 @@ pub fn measure(plan: Plan, devices: &[Gpu], share: Share) -> Result<Speed> {
     Ok(speed)
 }
 
-/// What a point of the last step cost: a set of points is left when its next step would take too long.
-#[derive(Default)]
-struct Budget {
-    each: Option<f64>,
+/// Who computes.
+#[derive(Clone, Copy)]
+enum Runner<'a> {
+    Cpu(Arithmetic),
+    Device(&'a Gpu),
 }
 
-impl Budget {
-    fn allows(&self, step: &Step, patience: f64) -> bool {
-        match (step, self.each) {
-            (Step::Samples(_, _, count), Some(each)) => each * *count as f64 <= patience,
-            _ => true,
-        }
-    }
-
-    fn spent(&mut self, step: &Step, seconds: f64) {
-        if let Step::Samples(_, _, count) = step {
-            self.each = Some(seconds / *count as f64);
+impl Runner<'_> {
+    fn who(self) -> Who {
+        match self {
+            Runner::Cpu(arithmetic) => Who::Cpu(arithmetic),
+            Runner::Device(gpu) => Who::Device(gpu.info().name.clone()),
         }
     }
 }
@@ -158,31 +154,23 @@ impl Run<'_> {
     }
 
     /// Point sets differ in their errors, not in their costs: f64 and devices do with Hammersley's, and a quick run too.
-    fn wants(&self, step: &Step, who: &Who) -> bool {
-        let all = !self.plan.quick && *who == Who::Cpu(Arithmetic::F32);
-        let can = match who {
-            Who::Cpu(arithmetic) => step.runs_in(*arithmetic),
-            Who::Device(_) => true,
+    fn wants(&self, step: &Step, runner: Runner) -> bool {
+        let (can, all) = match runner {
+            Runner::Cpu(arithmetic) => (step.runs_in(arithmetic), !self.plan.quick && arithmetic == Arithmetic::F32),
+            Runner::Device(_) => (true, false),
         };
         can && (all || !matches!(step, Step::Samples(_, set, _) if *set != PointSet::Hammersley))
     }
 
-    fn measure(
-        &self,
-        technique: Technique,
-        step: &Step,
-        who: &Who,
-        gpu: Option<&Gpu>,
-    ) -> Result<Option<(Measurement, f64)>> {
+    fn measure(&self, technique: Technique, step: &Step, runner: Runner) -> Result<Option<(Measurement, f64)>> {
         let Run { plan, lobe, grid, truth } = *self;
         let once = || -> Result<Option<(Vec<ScaleBias>, f64)>> {
-            match (who, gpu) {
-                (Who::Cpu(arithmetic), _) => {
-                    let (values, seconds) = timed(|| step.run(lobe, grid, *arithmetic, plan.seed));
+            match runner {
+                Runner::Cpu(arithmetic) => {
+                    let (values, seconds) = timed(|| step.run(lobe, grid, arithmetic, plan.seed));
                     Ok(Some((values?, seconds)))
                 }
-                (Who::Device(_), None) => Ok(None),
-                (Who::Device(_), Some(gpu)) => {
+                Runner::Device(gpu) => {
                     let (baked, wall) = timed(|| step.run_on(gpu, lobe, grid, plan.seed));
                     Ok(baked?.map(|baked| (baked.integrals, baked.device_seconds.unwrap_or(wall))))
                 }
@@ -210,7 +198,7 @@ impl Run<'_> {
         let (seconds, baseline) = (median(times), median(baselines));
         let errors = Errors::between(values.into_iter().zip(truth.iter().copied()));
         let evaluations = step.evaluations(lobe, grid.len());
-        let (who, step, ratio) = (who.clone(), step.name(), seconds / baseline);
+        let (who, step, ratio) = (runner.who(), step.name(), seconds / baseline);
         Ok(Some((Measurement { technique, step, who, evaluations, seconds, spread, ratio, errors }, baseline)))
     }
 
@@ -220,9 +208,6 @@ impl Run<'_> {
             let errors = Errors::between(values.into_iter().zip(truth.iter().copied()));
             Floor { name: name.into(), error: errors.largest() }
         };
-        let stored = |precision: Precision| {
-            truth.iter().map(|v| ScaleBias { a: precision.nearest(v.a), b: precision.nearest(v.b) }).collect()
-        };
         let finest = Step::Rule(Rule::named("h6144")?);
         let (single, double) =
             (finest.run(lobe, grid, Arithmetic::F32, plan.seed)?, finest.run(lobe, grid, Arithmetic::F64, plan.seed)?);
@@ -231,8 +216,8 @@ impl Run<'_> {
         let read = Lookup::new(lobe, lookup::POINTS / 4).of(lobe, axes, plan.size, truth)?;
         Ok(vec![
             Floor { name: format!("bilinear lookup, {0} x {0}", plan.size), error: read.largest() },
-            floor("8-bit storage", stored(Precision::Unorm8)),
-            floor("half-float storage", stored(Precision::F16)),
+            floor("8-bit storage", stored(truth, Precision::Unorm8)),
+            floor("half-float storage", stored(truth, Precision::F16)),
             Floor { name: "f32 arithmetic".into(), error: arithmetic },
         ])
     }

@@ -6,7 +6,7 @@ mod ways;
 
 pub use topics::{Topic, topics};
 
-use super::{Device, Share};
+use super::Share;
 use crate::backend::shader::{lobe_source, wgsl};
 use crate::backend::vulkan::evaluate::evaluate;
 use crate::backend::vulkan::gpu::Gpu;
@@ -227,8 +227,7 @@ fn device_source(ndf: Ndf) -> String {
 fn facts(gpu: &Gpu) -> Result<Vec<Fact>> {
     let source = device_source(Ndf::Ggx);
     let at = |expression: &str, arguments: &[[f32; 4]]| evaluate(gpu, &source, expression, &[], arguments);
-    let device = Device::from(gpu.info()).name;
-    let fact = |what: &str, value: String| Fact { what: what.into(), device: device.clone(), value };
+    let fact = |what: &str, value: String| Fact { what: what.into(), device: gpu.info().name.clone(), value };
     let turns: Vec<[f32; 4]> =
         (0..4096).map(|i| [i as f32 * (std::f32::consts::TAU / 4096.0), 0.0, 0.0, 0.0]).collect();
     let circular = at("vec4(sin(p.x), cos(p.x), 0.0, 0.0)", &turns)?;

@@ -61,6 +61,14 @@ fn sampler(name: &'static str, wgsl: &'static str, draw: fn(&View<f64>, f64, &Po
     }
 }
 
+/// The twin of the WGSL function of that name.
+macro_rules! sampler {
+    ($name:ident, $draw:expr) => {{
+        let wgsl = concat!("counted(", stringify!($name), "(seen_from(p.x, p.y), point(p.z, p.w)))");
+        sampler(stringify!($name), wgsl, $draw)
+    }};
+}
+
 fn twins() -> Vec<Twin> {
     vec![
         Twin {
@@ -129,36 +137,14 @@ fn twins() -> Vec<Twin> {
             ulps: 60.0,
             scale: 1.0,
         },
-        sampler(
-            "half_vector_sample, reflected",
-            "counted(half_vector_sample(seen_from(p.x, p.y), point(p.z, p.w)))",
-            |view, alpha, point| half_vector_sample(view, &half_vectors(LOBE.ndf, alpha, &[*point])[0]),
-        ),
-        sampler(
-            "visible_sample, reflect_stretched",
-            "counted(visible_sample(seen_from(p.x, p.y), point(p.z, p.w)))",
-            |view, _, point| visible_sample(view, point),
-        ),
-        sampler(
-            "spherical_cap_sample, cap_sample",
-            "counted(spherical_cap_sample(seen_from(p.x, p.y), point(p.z, p.w)))",
-            |view, _, point| spherical_cap_sample(view, point),
-        ),
-        sampler(
-            "bounded_visible_sample",
-            "counted(bounded_visible_sample(seen_from(p.x, p.y), point(p.z, p.w)))",
-            |view, _, point| bounded_visible_sample(view, point),
-        ),
-        sampler(
-            "uniform_sample, direct",
-            "counted(uniform_sample(seen_from(p.x, p.y), point(p.z, p.w)))",
-            |view, _, point| uniform_sample(view, point),
-        ),
-        sampler(
-            "cosine_sample, direct",
-            "counted(cosine_sample(seen_from(p.x, p.y), point(p.z, p.w)))",
-            |view, _, point| cosine_sample(view, point),
-        ),
+        sampler!(half_vector_sample, |view, alpha, point| {
+            half_vector_sample(view, &half_vectors(LOBE.ndf, alpha, &[*point])[0])
+        }),
+        sampler!(visible_sample, |view, _, point| visible_sample(view, point)),
+        sampler!(spherical_cap_sample, |view, _, point| spherical_cap_sample(view, point)),
+        sampler!(bounded_visible_sample, |view, _, point| bounded_visible_sample(view, point)),
+        sampler!(uniform_sample, |view, _, point| uniform_sample(view, point)),
+        sampler!(cosine_sample, |view, _, point| cosine_sample(view, point)),
         Twin {
             name: "estimate",
             wgsl: "vec4(estimate(p.x, p.y, Rule(64u, 0u, 0u, 0u)), 0.0, 0.0)",

@@ -1,13 +1,12 @@
 //! `splitsum chart speed`
 
-use super::{StudyArgs, read_study, write_drawing, write_json};
+use super::{Devices, Saved, StudyArgs, write_drawing};
 use crate::chart::lookup as lookup_chart;
 use crate::chart::size as size_chart;
 use crate::chart::speed::{Against, chart};
 use crate::cli::progress::Progress;
 use crate::cli::table_args::lobe;
 use crate::cli::{output, print};
-use crate::encode::metadata::TOOL;
 use crate::error::{Error, Result};
 use crate::study::lookup::Reading;
 use crate::study::size::Cost;
@@ -32,11 +31,8 @@ pub struct SpeedArgs {
     study: StudyArgs,
 }
 
-/// What is saved beside the charts.
 #[derive(Serialize, Deserialize)]
-struct Saved {
-    tool: String,
-    machine: Machine,
+struct Measured {
     speed: Speed,
     lookup: Vec<Reading>,
     size: Vec<Cost>,
@@ -65,15 +61,9 @@ const SEED: u64 = 1;
 pub fn run(arguments: &SpeedArgs) -> Result<()> {
     let (study, plan) = (&arguments.study, arguments.plan()?);
     let folder = study.folder(&FILES)?;
-    let saved = match &study.from {
-        Some(file) => read_study(file)?,
-        None => {
-            let saved = measure(plan, study)?;
-            write_json(&format!("{folder}/speed.json"), &saved)?;
-            saved
-        }
-    };
-    let Saved { machine, speed, lookup, size, .. } = &saved;
+    let path = format!("{folder}/speed.json");
+    let saved = study.saved(&path, |devices, progress| measure(plan, devices, progress))?;
+    let Saved { machine, measured: Measured { speed, lookup, size }, .. } = &saved;
     let lobe = speed.plan.lobe;
     write_drawing(&folder, "speed", &chart(speed, machine, Against::Time))?;
     write_drawing(&folder, "evaluations", &chart(speed, machine, Against::Evaluations))?;
@@ -88,8 +78,7 @@ pub fn run(arguments: &SpeedArgs) -> Result<()> {
 }
 
 /// The pictures, each with what a reader would read off it.
-fn page(saved: &Saved) -> String {
-    let Saved { machine, speed, lookup, size, .. } = saved;
+fn page(Saved { machine, measured: Measured { speed, lookup, size }, .. }: &Saved<Measured>) -> String {
     let picture = |title: &str, name: &str| format!("\n## {title}\n\n![{title}]({name}.png)\n\n");
     let devices: String =
         machine.devices.iter().map(|device| format!("; {} ({})", device.name, device.driver)).collect();
@@ -142,21 +131,15 @@ impl SpeedArgs {
     }
 }
 
-fn measure(plan: Plan, study: &StudyArgs) -> Result<Saved> {
+fn measure(plan: Plan, devices: &Devices, progress: &Progress) -> Result<Measured> {
     let (lobe, quick) = (plan.lobe.into(), plan.quick);
-    let devices = study.devices()?;
-    let machine = devices.machine();
-    let progress = Progress::of_work("measuring", study.quiet);
     // The parts' shares of the time, roughly.
-    let part = |from: f64, to: f64| {
-        let progress = &progress;
-        move |share: f64| progress.reach(from + (to - from) * share)
-    };
+    let part = |from: f64, to: f64| move |share: f64| progress.reach(from + (to - from) * share);
     let speed = speed::measure(plan, &devices.open()?, &part(0.0, 0.5))?;
-    let readings = lookup::measure(lobe, if quick { 64 } else { 256 }, &part(0.5, 0.6))?;
+    let lookup = lookup::measure(lobe, if quick { 64 } else { 256 }, &part(0.5, 0.6))?;
     let (largest, patience) = if quick { (256, 1.0) } else { (4096, 30.0) };
-    let costs = size::measure(lobe, largest, patience, &devices.options, &part(0.6, 1.0))?;
-    Ok(Saved { tool: TOOL.into(), machine, speed, lookup: readings, size: costs })
+    let size = size::measure(lobe, largest, patience, &devices.options, &part(0.6, 1.0))?;
+    Ok(Measured { speed, lookup, size })
 }
 
 /// Errors at which methods are compared.
@@ -168,13 +151,12 @@ fn summary(speed: &Speed, machine: &Machine) -> String {
     let times = |ratio: f64| if ratio < 10.0 { format!("{ratio:.1}") } else { format!("{ratio:.0}") };
     let heads = ERRORS.map(|error| format!(" {error:e} |")).concat();
     let mut text = format!(
-        "{}, {} threads; {}, {}, {} x {}; the baseline took {:.2} ms\n\n\
+        "{}, {} threads; {}, {} x {}; the baseline took {:.2} ms\n\n\
          Time of the cheapest step that keeps an error, over the baseline; in brackets, how often ours fits in\n\n\
          | largest error |{heads}\n| --- |{}\n",
         machine.processor,
         machine.threads,
-        word(speed.plan.lobe.model),
-        word(speed.plan.lobe.masking),
+        speed.plan.lobe,
         speed.plan.size,
         speed.plan.size,
         1e3 * speed.baseline_seconds,

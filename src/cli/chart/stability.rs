@@ -1,10 +1,8 @@
 //! `splitsum chart stability`
 
-use super::{StudyArgs, read_study, write_drawing, write_json};
+use super::{Saved, StudyArgs, write_drawing};
 use crate::chart::stability::chart;
-use crate::cli::progress::Progress;
 use crate::cli::{output, print};
-use crate::encode::metadata::TOOL;
 use crate::error::{Error, Result};
 use crate::study::Machine;
 use crate::study::stability::{Family, Stability, measure, topics};
@@ -16,11 +14,8 @@ pub struct StabilityArgs {
     study: StudyArgs,
 }
 
-/// What is saved beside the charts.
 #[derive(Serialize, Deserialize)]
-struct Saved {
-    tool: String,
-    machine: Machine,
+struct Measured {
     stability: Stability,
 }
 
@@ -36,25 +31,17 @@ pub fn run(StabilityArgs { study }: &StabilityArgs) -> Result<()> {
     let pictures = CHARTS.iter().flat_map(|(_, name, _)| [format!("{name}.svg"), format!("{name}.png")]);
     let files: Vec<String> = pictures.chain(["stability.json".into(), "stability.md".into()]).collect();
     let folder = study.folder(&files)?;
-    let Saved { machine, stability, .. } = match &study.from {
-        Some(file) => {
-            let saved: Saved = read_study(file)?;
-            if !saved.stability.is_whole() {
-                let (expected, got) = ("maps with an error for each point", "others");
-                return Err(Error::bad_input(file, expected, got, "measure anew"));
-            }
-            saved
-        }
-        None => {
-            let devices = study.devices()?;
-            let progress = Progress::of_work("measuring", study.quiet);
-            let size = if study.quick { [24, 16] } else { [56, 40] };
+    let size = if study.quick { [24, 16] } else { [56, 40] };
+    let Saved { machine, measured: Measured { stability }, .. } =
+        study.saved(&format!("{folder}/stability.json"), |devices, progress| {
             let stability = measure(size, &devices.open()?, &|share| progress.reach(share))?;
-            let saved = Saved { tool: TOOL.into(), machine: devices.machine(), stability };
-            write_json(&format!("{folder}/stability.json"), &saved)?;
-            saved
-        }
-    };
+            Ok(Measured { stability })
+        })?;
+    // What is read from a file may be anything.
+    if !stability.is_whole() {
+        let (file, expected) = (study.from.as_deref().unwrap_or_default(), "maps with an error for each point");
+        return Err(Error::bad_input(file, expected, "others", "measure anew"));
+    }
     for (family, name, title) in CHARTS {
         if let Some(drawing) = chart(&stability, family, title, &machine) {
             write_drawing(&folder, name, &drawing)?;

@@ -36,7 +36,7 @@ impl Topic {
             Kind::Tables(ways) => {
                 let truth = truth(GGX);
                 let of = |way: &Way| {
-                    let values = way.bake(&self.grid(size));
+                    let values = way.bake(&self.grid(size), &truth);
                     map(way.name, values.into_iter().zip(&truth).map(|(value, truth)| cell_of(value, *truth)).collect())
                 };
                 ways.iter().map(of).collect()

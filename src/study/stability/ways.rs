@@ -1,13 +1,13 @@
 //! Ways of integrating GGX that are mapped: the loop that engines ship, estimators, quadrature; and sums of many samples.
 
-use crate::backend::rows::{Work, bake_in};
+use crate::backend::rows::{Method, Work, bake_in, rows};
 use crate::integrate::ScaleBias;
 use crate::integrate::rule::{REFERENCE, Rule};
-use crate::lanes::{Lanes, Singles, Vector, vectorised};
+use crate::lanes::{Lanes, Real, Singles};
 use crate::lut::Grid;
 use crate::model::{Masking, Microfacet, Ndf};
 use crate::quadrature::point_set::{Point, PointSet};
-use crate::sampling::Sampler;
+use crate::sampling::{HalfVector, Sampler};
 use crate::study::textbook::textbook_split_sum;
 
 /// The lobe.
@@ -63,11 +63,12 @@ pub const SUMS: [Way; 2] = [
 ];
 
 impl Way {
-    /// (A, B) over a grid.
-    pub fn bake(&self, grid: &Grid) -> Vec<ScaleBias> {
+    /// (A, B) over a grid of which `truth` is known.
+    pub fn bake(&self, grid: &Grid, truth: &[ScaleBias]) -> Vec<ScaleBias> {
+        let hammersley = |count| PointSet::Hammersley.points(count, 0);
         match self.how {
-            How::Loop(count, Bits::Single) => loops::<Singles>(grid, &PointSet::Hammersley.points(count, 0)),
-            How::Loop(count, Bits::Double) => loops::<Lanes>(grid, &PointSet::Hammersley.points(count, 0)),
+            How::Loop(count, Bits::Single) => rows::<Singles, _>(GGX, grid, &Loop(&hammersley(count))),
+            How::Loop(count, Bits::Double) => rows::<Lanes, _>(GGX, grid, &Loop(&hammersley(count))),
             How::Samples(sampler, set, count) => {
                 bake_in::<Singles>(GGX, grid, Work::Samples(sampler, &set.points(count, 0)))
             }
@@ -75,47 +76,31 @@ impl Way {
                 let integrator = Rule::named(name).unwrap_or(REFERENCE).integrator();
                 bake_in::<Singles>(GGX, grid, Work::Rule(&integrator))
             }
-            How::Sum(count, summed) => sum(grid, &PointSet::Hammersley.points(count, 0), summed),
+            How::Sum(count, summed) => sum(grid, truth, &hammersley(count), summed),
         }
     }
 }
 
 /// The truth and what the sum of the samples adds to it in f32, against the sum of the same in f64.
-fn sum(grid: &Grid, points: &[Point], summed: Summed) -> Vec<ScaleBias> {
+fn sum(grid: &Grid, truth: &[ScaleBias], points: &[Point], summed: Summed) -> Vec<ScaleBias> {
     let work = Work::Samples(Sampler::HalfVector, points);
     let (single, double) = match summed {
-        Summed::OneByOne => (loops::<Singles>(grid, points), loops::<Lanes>(grid, points)),
+        Summed::OneByOne => (rows::<Singles, _>(GGX, grid, &Loop(points)), rows::<Lanes, _>(GGX, grid, &Loop(points))),
         Summed::InBlocks => (bake_in::<Singles>(GGX, grid, work), bake_in::<Lanes>(GGX, grid, work)),
     };
-    let truth = crate::backend::cpu::bake(GGX, grid, &REFERENCE, &|_| ());
-    let off = |((truth, single), double): ((ScaleBias, ScaleBias), ScaleBias)| ScaleBias {
+    let off = |((truth, single), double): ((&ScaleBias, ScaleBias), ScaleBias)| ScaleBias {
         a: truth.a + single.a - double.a,
         b: truth.b + single.b - double.b,
     };
-    truth.into_iter().zip(single).zip(double).map(off).collect()
+    truth.iter().zip(single).zip(double).map(off).collect()
 }
 
-/// The textbook's loop over a grid.
-fn loops<V: Vector>(grid: &Grid, points: &[Point]) -> Vec<ScaleBias> {
-    let group = |alpha: f64, mus: &[f64]| {
-        let mu = V::gather(|i| mus[i.min(mus.len() - 1)]);
-        let ScaleBias { a, b } = vectorised(Loop { mu, alpha: V::from(alpha), points });
-        (0..mus.len()).map(|i| ScaleBias { a: a.lane(i), b: b.lane(i) }).collect::<Vec<_>>()
-    };
-    grid.alphas.iter().flat_map(|&alpha| grid.mus.chunks(V::LANES).flat_map(move |mus| group(alpha, mus))).collect()
-}
+/// The textbook's loop over these points.
+struct Loop<'a>(&'a [Point]);
 
-struct Loop<'a, V> {
-    mu: V,
-    alpha: V,
-    points: &'a [Point],
-}
-
-impl<V: Vector> pulp::NullaryFnOnce for Loop<'_, V> {
-    type Output = ScaleBias<V>;
-
+impl Method for Loop<'_> {
     #[inline(always)]
-    fn call(self) -> ScaleBias<V> {
-        textbook_split_sum(self.mu, self.alpha, self.points)
+    fn texel<R: Real>(&self, _: &[HalfVector], _: Microfacet, mu: R, alpha: R) -> ScaleBias<R> {
+        textbook_split_sum(mu, alpha, self.0)
     }
 }
