@@ -64,12 +64,6 @@ fn ierfc(a: f32) -> f32 {
     return exponential(-a * a) * fit;
 }
 
-// arccos(x) for 0 <= x <= 1: sqrt(1-x) times a polynomial, within 2e-8 (Abramowitz and Stegun, 4.4.46).
-fn arc_cosine(x: f32) -> f32 {
-    return sqrt(1.0 - x) * (1.5707963050 + x * (-0.2145988016 + x * (0.0889789874 + x * (-0.0501743046
-        + x * (0.0308918810 + x * (-0.0170881256 + x * (0.0066700901 + x * -0.0012624911)))))));
-}
-
 // x^(head + rest) for normal x > 0 as 2^k and e^r - 1: nearly twice the digits of one number. `head` has few enough bits that
 // its products with the exponents of x are exact.
 fn power_parts(x: f32, head: f32, rest: f32) -> vec2<f32> {

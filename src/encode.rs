@@ -7,6 +7,7 @@ pub mod png;
 use crate::error::{Error, Result};
 use crate::precision::Precision;
 use crate::table::Table;
+use std::io::{Cursor, Seek, Write};
 
 /// A file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,11 +52,11 @@ impl Format {
     }
 }
 
-/// The bytes of a file of one table, or of several where the format has layers.
-pub fn encode(tables: &[Table], format: Format, precision: Precision) -> Result<Vec<u8>> {
+/// Writes a file of one table, or of several where the format has layers, as it encodes it.
+pub fn write(tables: &[Table], format: Format, file: impl Write + Seek) -> Result<()> {
     match (format, tables) {
-        (Format::Exr, tables) => exr::encode(tables, precision),
-        (Format::Png, [table]) => png::encode(table, precision),
+        (Format::Exr, tables) => exr::write(tables, file),
+        (Format::Png, [table]) => png::write(table, file),
         (Format::Png, _) => {
             let (expected, got) = ("one table in a .png", format!("{} layers", tables.len()));
             Err(Error::bad_input("layers", expected, got, "write an .exr, or one F0 at a time"))
@@ -63,14 +64,24 @@ pub fn encode(tables: &[Table], format: Format, precision: Precision) -> Result<
     }
 }
 
-/// The bits of red, green and blue, each plane row by row; a channel that the table has not is 0.
-fn rgb_planes(table: &Table, precision: Precision) -> Result<[Vec<u32>; 3]> {
-    let (n, texels) = (table.channels.len(), table.x.size * table.y.size);
-    let plane = |channel: usize| {
-        if channel >= n {
-            return Ok(vec![0; texels]);
-        }
-        precision.store(&table.plane(channel), table.provenance.worth.error_bound())
-    };
-    Ok([plane(0)?, plane(1)?, plane(2)?])
+/// The bytes of such a file.
+pub fn encode(tables: &[Table], format: Format) -> Result<Vec<u8>> {
+    let mut file = Cursor::new(Vec::new());
+    write(tables, format, &mut file)?;
+    Ok(file.into_inner())
+}
+
+/// The stored bytes of red (0), green (1) or blue (2) of a texel, little-endian; of a channel that the table has not, zeros.
+fn texel_bytes<const N: usize>(table: &Table, i: usize, j: usize, channel: usize) -> [u8; N] {
+    let channels = table.channels.len();
+    if channel >= channels {
+        return [0; N];
+    }
+    let value = (j * table.x.size + i) * channels + channel;
+    table.values.bytes()[value * N..].first_chunk().copied().unwrap_or([0; N])
+}
+
+/// The system has refused to write; whoever opened the file knows its name.
+fn failed(source: std::io::Error) -> Error {
+    Error::Io { action: "write", path: "the file".into(), source, cure: "make room or choose another place" }
 }

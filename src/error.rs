@@ -33,6 +33,9 @@ pub enum Error {
     /// A check found a result that is not what it has to be; nothing was written.
     #[error("check failed: {0}")]
     CheckFailed(String),
+    /// The system has not the memory or the threads that the work takes.
+    #[error("{0}")]
+    Resources(Complaint),
     /// splitsum itself is at fault.
     #[error("internal error, please report it: {0}")]
     Internal(String),
@@ -84,11 +87,13 @@ pub enum ExitCode {
     DeviceFailure = 6,
     /// A check found a wrong result: the device disagrees with the CPU, or a table misses its bound.
     CheckFailed = 7,
+    /// There is not enough memory, or a thread was refused.
+    Resources = 8,
 }
 
 impl ExitCode {
     /// All of them, with what each means: the text of `--help`.
-    pub const MEANINGS: [(ExitCode, &'static str); 8] = [
+    pub const MEANINGS: [(ExitCode, &'static str); 9] = [
         (ExitCode::Success, "all done"),
         (ExitCode::Internal, "a fault of splitsum itself"),
         (ExitCode::Usage, "the command line does not make sense"),
@@ -97,6 +102,7 @@ impl ExitCode {
         (ExitCode::NoDevice, "no usable Vulkan device, though one was asked for"),
         (ExitCode::DeviceFailure, "the Vulkan device failed at its work"),
         (ExitCode::CheckFailed, "a check failed: device and CPU differ, or a table misses its bound"),
+        (ExitCode::Resources, "not enough memory, or a thread was refused"),
     ];
 }
 
@@ -111,6 +117,17 @@ impl Error {
         Error::BadInput(Complaint::new(what, expected, got, cure))
     }
 
+    /// No memory for so many bytes of this.
+    pub fn out_of_memory(what: &str, bytes: usize) -> Self {
+        let expected = format!("{} MiB of memory for {what}", bytes.div_ceil(1 << 20));
+        Error::Resources(Complaint::new(
+            "memory",
+            expected,
+            "less",
+            "give a smaller --size, or free or allow more memory",
+        ))
+    }
+
     /// The exit code of this kind of failure.
     pub fn exit_code(&self) -> ExitCode {
         match self {
@@ -120,6 +137,7 @@ impl Error {
             Error::NoDevice(_) => ExitCode::NoDevice,
             Error::DeviceFailure(_) => ExitCode::DeviceFailure,
             Error::CheckFailed(_) => ExitCode::CheckFailed,
+            Error::Resources(_) => ExitCode::Resources,
             Error::Internal(_) => ExitCode::Internal,
         }
     }

@@ -9,7 +9,7 @@ use crate::integrate::average::{average_nodes, averages};
 use crate::integrate::rule::Rule;
 use crate::lut::Grid;
 use crate::lut::energy::check_leaves_energy;
-use crate::model::fresnel::schlick_weight;
+use crate::model::fresnel::schlick_complement;
 use crate::model::{Diffuse, Microfacet};
 use crate::quadrature::double_exponential::tanh_sinh;
 use crate::units::word;
@@ -106,7 +106,7 @@ pub fn furnaces(material: Material, f0s: &[f64], splits: &[Split], grid: &Grid, 
     let Material { lobe, base, .. } = material;
     check_leaves_energy(lobe)?;
     if splits.contains(&Split::Reciprocal) && base != Diffuse::Lambert {
-        let cure = "choose --diffuse lambert, or another --split";
+        let cure = "choose lambert, or leave the reciprocal split out";
         return Err(Error::bad_input("diffuse", "lambert, on which the reciprocal split stands", word(base), cure));
     }
     let points = cpu::bake(lobe, grid, rule, &|_| ());
@@ -132,7 +132,7 @@ pub fn furnaces(material: Material, f0s: &[f64], splits: &[Split], grid: &Grid, 
             let s = specular(points[index], row);
             let albedo = base.albedo(mu, alpha.sqrt());
             s + match split {
-                Split::Naive => (1.0 - f0 - (1.0 - f0) * schlick_weight(mu)) * albedo,
+                Split::Naive => (1.0 - f0) * schlick_complement(mu) * albedo,
                 Split::Albedo => (1.0 - s) * albedo,
                 // Where nothing is left on average nothing reaches the base.
                 Split::Reciprocal if left[row].0 < 1e-9 => 0.0,

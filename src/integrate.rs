@@ -10,8 +10,9 @@ pub mod reference;
 pub mod rule;
 pub mod surrogate;
 
-use crate::lanes::Real;
-use crate::model::fresnel::schlick_weight;
+use crate::ball::Ball;
+use crate::lanes::{Number, Real};
+use crate::model::fresnel::{schlick_complement, schlick_weight};
 use crate::model::{Diffuse, Microfacet};
 
 /// What is integrated.
@@ -70,6 +71,13 @@ impl<R: Real> ScaleBias<R> {
     }
 }
 
+impl<R: Number> ScaleBias<R> {
+    /// The limit α → 0 at fixed n·v: a perfect mirror, times `limit` ([`crate::model::Microfacet::smooth_limit`]).
+    pub fn mirror(mu: R, limit: R) -> Self {
+        ScaleBias { a: limit * schlick_complement(mu), b: limit * schlick_weight(mu) }
+    }
+}
+
 impl ScaleBias {
     /// The directional albedo at F = 1: E = A + B.
     pub fn e(self) -> f64 {
@@ -81,16 +89,20 @@ impl ScaleBias {
         f0 * self.a + self.b
     }
 
-    /// Whether [`ScaleBias::mirror`] is exact in f64: n·v is a multiple of 1/1024, and of 1/128 where the limit is its square, so
-    /// that no product has more than 53 bits. Only such values can lie on a boundary of rounding.
-    pub fn mirror_is_exact(mu: f64, limit: f64) -> bool {
-        let steps = if limit == 1.0 { 1024.0 } else { 128.0 };
-        (mu * steps).fract() == 0.0
+    /// Each number at most so far from the truth.
+    pub fn within(self, errors: ScaleBias) -> ScaleBias<Ball> {
+        ScaleBias { a: Ball { value: self.a, error: errors.a }, b: Ball { value: self.b, error: errors.b } }
+    }
+}
+
+impl ScaleBias<Ball> {
+    /// The directional albedo at F = 1: E = A + B.
+    pub fn e(self) -> Ball {
+        self.a + self.b
     }
 
-    /// The limit α → 0 at fixed n·v: a perfect mirror, times `limit` ([`crate::model::Microfacet::smooth_limit`]).
-    pub fn mirror(mu: f64, limit: f64) -> Self {
-        let b = schlick_weight(mu);
-        ScaleBias { a: limit * (1.0 - b), b: limit * b }
+    /// E(F0) = F0 A + B.
+    pub fn at_f0(self, f0: f64) -> Ball {
+        Ball::exact(f0) * self.a + self.b
     }
 }

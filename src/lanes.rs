@@ -15,6 +15,11 @@ pub const SHIFT: f64 = 6_755_399_441_055_744.0;
 /// The same for an f32 below 2^22.
 const SHIFT_OF_SINGLES: f32 = 12_582_912.0;
 
+/// What can be added and multiplied: every [`Real`], and numbers that carry their error.
+pub trait Number: Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {}
+
+impl<R: Copy + From<f64> + Add<Output = R> + Sub<Output = R> + Mul<Output = R>> Number for R {}
+
 /// What the formulas compute with: f64, [`Lanes`] of them, or f32 in [`Singles`].
 pub trait Real:
     Copy

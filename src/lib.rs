@@ -10,10 +10,12 @@
 //!
 //! - [`error`]: every failure, with what was expected, what was got and the cure; the exit codes
 //! - [`units`]: perceptual roughness, α, cosines, index of refraction, F0; each conversion once
+//! - [`ball`]: a number with a bound of its error, carried through arithmetic
 //! - [`lanes`]: eight numbers side by side, for the CPU's vector registers
 //! - [`axis`]: texel ↔ parameter, the only half-texel arithmetic
 //! - [`half`]: correctly rounded binary16
 //! - [`precision`]: how a value is stored
+//! - [`stored`]: numbers in the bytes of a file
 //! - [`certificate`]: what is certified of a table
 //! - [`table`]: values over two axes, bilinear lookup, differences
 //! - [`special`]: the special functions of the models
@@ -53,10 +55,12 @@
 
 pub mod error;
 pub mod units;
+pub mod ball;
 pub mod lanes;
 pub mod axis;
 pub mod half;
 pub mod precision;
+pub mod stored;
 pub mod certificate;
 pub mod table;
 pub mod special;

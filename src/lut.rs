@@ -3,17 +3,22 @@
 pub mod dfg;
 pub mod diffuse;
 pub mod energy;
+pub mod sheet;
 
 pub use dfg::{Dfg, DfgChannels};
 pub use energy::{Energy, EnergyChannels};
 
 use crate::axis::{Axis, Parameter};
+use crate::ball::Ball;
 use crate::error::{Error, Result};
 use crate::integrate::{Integrand, ScaleBias};
 use crate::model::blinn_phong::alpha_of_exponent;
 use crate::model::{Diffuse, Microfacet, Ndf};
-use crate::table::{Channel, Provenance, Table};
+use crate::precision::Precision;
+use crate::stored::Stored;
+use crate::table::{Channel, Provenance};
 use crate::units::{Alpha, PerceptualRoughness, word};
+use sheet::Sheet;
 
 /// A family of tables with its choices made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,13 +111,13 @@ impl Lut {
         }
     }
 
-    /// The values of the channels of a texel at n·v = `mu`, the first as many as there are channels. As the integral grows and
-    /// the average falls each of them grows, or each falls.
-    pub fn values(&self, mu: f64, integral: ScaleBias, average: ScaleBias) -> [f64; 3] {
+    /// The values of the channels of a texel at n·v = `mu`, the first as many as there are channels, from its integral and its
+    /// row's average: each with what it may be off, by the errors of both and by the formula's own arithmetic.
+    pub fn values(&self, mu: f64, integral: ScaleBias<Ball>, average: ScaleBias<Ball>) -> [Ball; 3] {
         match self {
             Lut::Dfg(dfg) => dfg.channels.values(integral),
             Lut::Energy(energy) => energy.values(mu, integral, average),
-            Lut::Diffuse(_) => [integral.a, 0.0, 0.0],
+            Lut::Diffuse(_) => [integral.a, Ball::default(), Ball::default()],
         }
     }
 }
@@ -172,15 +177,17 @@ impl Grid {
         (self.mus[index % self.mus.len()], self.alphas[index / self.mus.len()])
     }
 
-    /// The table with these values, as many for each point as there are `channels`, in the order of the points.
-    pub fn table(&self, channels: &[Channel], (x, y): (Axis, Axis), values: Vec<f64>, provenance: Provenance) -> Table {
-        let (n, width) = (channels.len(), self.mus.len());
-        let transpose = || {
-            let points = (0..self.len()).map(|texel| texel % x.size * width + texel / x.size);
-            points.flat_map(|point| &values[point * n..][..n]).copied().collect()
-        };
-        let rows = if self.transposed { transpose() } else { values };
-        Table { x, y, channels: channels.to_vec(), values: rows, provenance }
+    /// The α from row `first` on, so many at the most.
+    pub fn band(&self, first: usize, rows: usize) -> Grid {
+        let alphas = self.alphas.iter().skip(first).take(rows).copied().collect();
+        Grid { mus: self.mus.clone(), alphas, transposed: self.transposed }
+    }
+
+    /// These values, as many for each point as there are channels and in the order of the points, as a table stores them.
+    pub fn stored(&self, lut: &Lut, precision: Precision, values: &[f64]) -> Result<Stored> {
+        let mut sheet = Sheet::new(lut, self, precision)?;
+        sheet.put(0, values);
+        sheet.finish()
     }
 }
 

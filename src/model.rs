@@ -11,7 +11,7 @@ pub mod charlie;
 pub mod diffuse;
 pub mod masking;
 
-use crate::lanes::Real;
+use crate::lanes::{Number, Real};
 
 /// The distribution of microfacet normals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -212,11 +212,11 @@ impl Microfacet {
     }
 
     /// E(F = 1) in the limit α → 0 at fixed n·v, as a multiple of a mirror's: G of the mirror direction, 0 for sheen.
-    pub fn smooth_limit(self, mu: f64) -> f64 {
+    pub fn smooth_limit<R: Number>(self, mu: R) -> R {
         match (self.ndf, self.masking) {
-            (Ndf::Charlie, _) => 0.0,
+            (Ndf::Charlie, _) => R::from(0.0),
             (_, Masking::Implicit) => mu * mu,
-            _ => 1.0,
+            _ => R::from(1.0),
         }
     }
 

@@ -1,6 +1,5 @@
 //! How a value is stored: the roundings, what each costs, and the tolerance that befits it.
 
-use crate::error::{Error, Result};
 use crate::half;
 use serde::{Deserialize, Serialize};
 
@@ -12,6 +11,9 @@ pub enum Precision {
     F16,
     /// Binary32, rounded to nearest, ties to even.
     F32,
+    /// Binary64 as it was computed: for charts and comparisons, of no file and not certified.
+    #[serde(skip_deserializing)]
+    F64,
     /// round(65535 v), for values in [0, 1].
     Unorm16,
     /// round(255 v), for values in [0, 1].
@@ -22,12 +24,12 @@ impl Precision {
     /// The tolerance when none is given.
     ///
     /// f16: 2^-16 is a sixteenth of half a step of binary16 in [1/2, 1), 2^-12: storing the number then costs sixteen times
-    /// what integrating it does. f32: the least that f32 arithmetic on a device can promise. unorm: as for f16, a
+    /// what integrating it does. f32 and f64: the least that f32 arithmetic on a device can promise. unorm: as for f16, a
     /// sixteenth of half a step or that least, whichever is more.
     pub fn default_tolerance(self) -> f64 {
         match self {
             Precision::F16 => 1.0 / 65536.0,
-            Precision::F32 => 1e-6,
+            Precision::F32 | Precision::F64 => 1e-6,
             Precision::Unorm16 => 1e-6,
             Precision::Unorm8 => 1e-4,
         }
@@ -38,30 +40,47 @@ impl Precision {
         match self {
             Precision::F16 => 1.0 / 4096.0,
             Precision::F32 => 1.0 / f64::from(1 << 25),
+            Precision::F64 => 0.25 * f64::EPSILON,
             Precision::Unorm16 => 0.5 / 65535.0,
             Precision::Unorm8 => 0.5 / 255.0,
         }
     }
 
-    /// The largest number of the values that it can hold, and the smallest.
-    fn range(self) -> (f64, f64) {
+    /// The smallest value that it holds, and the largest.
+    pub fn range(self) -> (f64, f64) {
         match self {
             Precision::F16 => (-half::LARGEST, half::LARGEST),
             Precision::F32 => (f64::from(f32::MIN), f64::from(f32::MAX)),
+            Precision::F64 => (f64::MIN, f64::MAX),
             Precision::Unorm16 | Precision::Unorm8 => (0.0, 1.0),
         }
     }
 
-    /// The stored value nearest to `value`, ties to even; where only [0, 1] can be stored, the nearer end of it.
+    /// Whether it holds a value that [`Precision::nearest`] gives; it holds no NaN.
+    #[inline]
+    pub fn holds(self, nearest: f64) -> bool {
+        let (low, high) = self.range();
+        (low..=high).contains(&nearest)
+    }
+
+    /// The value nearest to `value`, ties to even, of those that it would hold if its range had no end: beyond the range
+    /// unorms go on in their steps, and floats are infinite.
     #[inline]
     pub fn nearest(self, value: f64) -> f64 {
-        let unorm = |steps: f64| (value.clamp(0.0, 1.0) * steps).round_ties_even() / steps;
         match self {
             Precision::F16 => half::nearest(value),
             Precision::F32 => f64::from(value as f32),
-            Precision::Unorm16 => unorm(65535.0),
-            Precision::Unorm8 => unorm(255.0),
+            Precision::F64 => value,
+            Precision::Unorm16 => (value * 65535.0).round_ties_even() / 65535.0,
+            Precision::Unorm8 => (value * 255.0).round_ties_even() / 255.0,
         }
+    }
+
+    /// `value`, or the nearer end of the range where it lies outside by no more than `slack`, the error that it may have.
+    pub fn pulled_in(self, value: f64, slack: f64) -> f64 {
+        let (low, high) = self.range();
+        let near = value >= low - slack && value <= high + slack;
+        if near { value.clamp(low, high) } else { value }
     }
 
     /// How far `value` is from the nearest number at which the stored value changes.
@@ -69,6 +88,7 @@ impl Precision {
         let v = value.abs();
         let step = match self {
             Precision::F16 => half::step(v),
+            Precision::F64 => return 0.0,
             Precision::F32 => f64::from_bits(((v.to_bits() >> 52).max(1023 - 126) - 23) << 52),
             Precision::Unorm16 => 1.0 / 65535.0,
             Precision::Unorm8 => 1.0 / 255.0,
@@ -82,28 +102,37 @@ impl Precision {
         if first { above.min((steps - steps.floor() + 0.25) * step) } else { above }
     }
 
-    /// The bits that stand for each value; a value that this precision cannot hold is an error. A value that lies outside
-    /// [0, 1] by no more than `slack`, the error it may have, is stored as 0 or 1 where nothing else can be.
-    pub fn store(self, values: &[f64], slack: f64) -> Result<Vec<u32>> {
-        let (low, high) = self.range();
-        let slack = if low == 0.0 { slack } else { 0.0 };
-        if let Some(value) = values.iter().find(|value| !(low - slack..=high + slack).contains(*value)) {
-            let expected = format!("values from {low} to {high}");
-            return Err(Error::bad_input("precision", expected, value.to_string(), "choose f16 or f32"));
+    /// Writes a value that it holds, little-endian, into [`Precision::bytes`] bytes.
+    #[inline]
+    pub fn write(self, value: f64, bytes: &mut [u8]) {
+        match self {
+            Precision::F16 => bytes.copy_from_slice(&half::round(value).to_le_bytes()),
+            Precision::F32 => bytes.copy_from_slice(&(value as f32).to_le_bytes()),
+            Precision::F64 => bytes.copy_from_slice(&value.to_le_bytes()),
+            Precision::Unorm16 => bytes.copy_from_slice(&((value * 65535.0).round_ties_even() as u16).to_le_bytes()),
+            Precision::Unorm8 => bytes.copy_from_slice(&[(value * 255.0).round_ties_even() as u8]),
         }
-        let unorm = |value: f64, steps: f64| (self.nearest(value) * steps).round() as u32;
-        let store = |&value: &f64| match self {
-            Precision::F16 => u32::from(half::round(value)),
-            Precision::F32 => (value as f32).to_bits(),
-            Precision::Unorm16 => unorm(value, 65535.0),
-            Precision::Unorm8 => unorm(value, 255.0),
-        };
-        Ok(values.iter().map(store).collect())
+    }
+
+    /// The value that these bytes stand for; 0 of too few of them.
+    #[inline]
+    pub fn read(self, bytes: &[u8]) -> f64 {
+        fn first<const N: usize>(bytes: &[u8]) -> [u8; N] {
+            bytes.first_chunk().copied().unwrap_or([0; N])
+        }
+        match self {
+            Precision::F16 => half::value(u16::from_le_bytes(first(bytes))),
+            Precision::F32 => f64::from(f32::from_le_bytes(first(bytes))),
+            Precision::F64 => f64::from_le_bytes(first(bytes)),
+            Precision::Unorm16 => f64::from(u16::from_le_bytes(first(bytes))) / 65535.0,
+            Precision::Unorm8 => f64::from(u8::from_le_bytes(first(bytes))) / 255.0,
+        }
     }
 
     /// Bytes of a stored value.
     pub fn bytes(self) -> usize {
         match self {
+            Precision::F64 => 8,
             Precision::F32 => 4,
             Precision::F16 | Precision::Unorm16 => 2,
             Precision::Unorm8 => 1,

@@ -94,7 +94,9 @@ impl Row {
         let grid = request.grid()?;
         let rule = Rule::for_cpu(lobe, Precision::F16.default_tolerance(), grid.len()).unwrap_or(REFERENCE);
         let values: Vec<f64> = cpu::bake(lobe, &grid, &rule, &|_| ()).iter().flat_map(|v| [v.a, v.b]).collect();
-        let table = grid.table(lut.channels(), (request.x, request.y), values, lut.provenance());
+        let values = grid.stored(&lut, Precision::F64, &values)?;
+        let channels = lut.channels().to_vec();
+        let table = Table { x: request.x, y: request.y, channels, values, provenance: lut.provenance() };
         let column = |&r: &f64| PerceptualRoughness::new(r).map(|r| Column::new(lobe.ndf, r));
         Ok(Row { lobe, scene, columns: ROUGHNESSES.iter().map(column).collect::<Result<_>>()?, table })
     }
@@ -104,7 +106,13 @@ impl Row {
         let column = |c: &Column| [c.alpha, c.roughness, c.means.0, c.means.1].map(|value| value as f32);
         RowData {
             columns: self.columns.iter().map(column).collect(),
-            table: self.table.values.chunks_exact(2).map(|ab| [ab[0] as f32, ab[1] as f32]).collect(),
+            table: self
+                .table
+                .plane(0)
+                .into_iter()
+                .zip(self.table.plane(1))
+                .map(|(a, b)| [a as f32, b as f32])
+                .collect(),
             cell,
             scene: self.scene as u32,
         }

@@ -64,6 +64,10 @@ impl Request {
         if let Integrand::Specular(lobe) = integrand {
             check_lobe(lobe, &grid)?;
         }
+        if let (Accuracy::Certified(_), Precision::F64) = (accuracy, precision) {
+            let cure = "choose another, or values that are not certified";
+            return Err(Error::bad_input("precision", "one that files have, to be certified", "f64", cure));
+        }
         match accuracy {
             Accuracy::Certified(tolerance) | Accuracy::Tolerance(tolerance) => {
                 let needs_rule = matches!(accuracy, Accuracy::Tolerance(_)) || precision == Precision::F32;

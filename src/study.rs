@@ -115,7 +115,9 @@ impl Errors {
 
 /// Values as they are stored.
 fn stored(values: &[ScaleBias], precision: Precision) -> Vec<ScaleBias> {
-    values.iter().map(|v| ScaleBias { a: precision.nearest(v.a), b: precision.nearest(v.b) }).collect()
+    let (low, high) = precision.range();
+    let store = |value: f64| precision.nearest(value.clamp(low, high));
+    values.iter().map(|v| ScaleBias { a: store(v.a), b: store(v.b) }).collect()
 }
 
 /// The value in the middle; NaN where there is none.

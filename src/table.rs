@@ -2,8 +2,7 @@
 
 use crate::axis::Axis;
 use crate::certificate::Certificate;
-use crate::error::Result;
-use crate::precision::Precision;
+use crate::stored::Stored;
 use serde::Serialize;
 
 /// A channel of a table.
@@ -86,8 +85,8 @@ pub struct Table {
     pub y: Axis,
     /// What each value of a texel is.
     pub channels: Vec<Channel>,
-    /// The values, `channels.len()` for each texel.
-    pub values: Vec<f64>,
+    /// The values as they are stored, `channels.len()` for each texel.
+    pub values: Stored,
     /// Where they come from.
     pub provenance: Provenance,
 }
@@ -105,22 +104,24 @@ pub struct Difference {
 
 impl Table {
     /// The values of the texel in column `i` and row `j`.
-    pub fn texel(&self, i: usize, j: usize) -> &[f64] {
-        let n = self.channels.len();
-        &self.values[(j * self.x.size + i) * n..][..n]
+    pub fn texel(&self, i: usize, j: usize) -> Vec<f64> {
+        (0..self.channels.len()).map(|channel| self.value(i, j, channel)).collect()
+    }
+
+    /// One of them.
+    #[inline]
+    pub fn value(&self, i: usize, j: usize, channel: usize) -> f64 {
+        self.values.get((j * self.x.size + i) * self.channels.len() + channel)
     }
 
     /// BLAKE3 of the values as they are stored: little-endian, row by row, the channels of a texel side by side.
-    pub fn hash(&self, precision: Precision) -> Result<String> {
-        let bits = precision.store(&self.values, 0.0)?;
-        let mut bytes = Vec::with_capacity(bits.len() * precision.bytes());
-        bits.iter().for_each(|bits| bytes.extend_from_slice(&bits.to_le_bytes()[..precision.bytes()]));
-        Ok(blake3::hash(&bytes).to_hex().to_string())
+    pub fn hash(&self) -> String {
+        blake3::hash(self.values.bytes()).to_hex().to_string()
     }
 
     /// The values of a channel, row by row.
     pub fn plane(&self, channel: usize) -> Vec<f64> {
-        self.values.iter().skip(channel).step_by(self.channels.len()).copied().collect()
+        self.values.iter().skip(channel).step_by(self.channels.len()).collect()
     }
 
     /// What a renderer reads at the parameters (`px`, `py`): bilinear between texels, clamped at the border.
@@ -131,11 +132,10 @@ impl Table {
             (i, (i + 1).min(axis.size - 1), t - t.floor())
         };
         let ((i0, i1, u), (j0, j1, v)) = (split(&self.x, px), split(&self.y, py));
-        let at = |i, j, c: usize| self.texel(i, j)[c];
         (0..self.channels.len())
             .map(|c| {
-                let low = at(i0, j0, c) * (1.0 - u) + at(i1, j0, c) * u;
-                let high = at(i0, j1, c) * (1.0 - u) + at(i1, j1, c) * u;
+                let low = self.value(i0, j0, c) * (1.0 - u) + self.value(i1, j0, c) * u;
+                let high = self.value(i0, j1, c) * (1.0 - u) + self.value(i1, j1, c) * u;
                 low * (1.0 - v) + high * v
             })
             .collect()

@@ -7,7 +7,8 @@ use common::ggx;
 use splitsum::axis::Axis;
 use splitsum::backend::{Backend, cpu};
 use splitsum::certify::decision::Task;
-use splitsum::certify::ziv::{DeviceTable, certify, stages};
+use splitsum::certify::stages::rules;
+use splitsum::certify::ziv::{DeviceTable, certify};
 use splitsum::error::{Error, ExitCode};
 use splitsum::integrate::ScaleBias;
 use splitsum::integrate::rule::{CHARLIE_LIMIT, REFERENCE, Rule};
@@ -41,9 +42,15 @@ fn every_value_of_every_lobe_is_the_reference_rounded() {
         for precision in [Precision::F16, Precision::Unorm16, Precision::Unorm8] {
             let certified = certify(&task(&lut, &grid, precision), None, &|_| ()).unwrap();
             assert_eq!(certified.certificate.undecided, 0, "{lobe:?}");
-            let rounded = truth.iter().flat_map(|value| [value.a, value.b]).map(|value| precision.nearest(value));
-            let differ = certified.values.iter().zip(rounded).filter(|(value, truth)| **value != *truth).count();
-            assert_eq!(differ, 0, "{lobe:?} in {precision:?}");
+            for (value, truth) in certified.values.iter().zip(truth.iter().flat_map(|value| [value.a, value.b])) {
+                let rounded = precision.nearest(truth);
+                if precision.holds(rounded) {
+                    assert_eq!(*value, rounded, "{lobe:?} in {precision:?}");
+                } else {
+                    // It is left as it is, for the error that names it; a stage's error is at most 1e-7 of it.
+                    assert!((value - truth).abs() < 1e-7 * truth, "{lobe:?} in {precision:?}: {value} for {truth}");
+                }
+            }
         }
     }
 }
@@ -75,7 +82,7 @@ fn stages_do_not_change_a_value_and_the_reference_sees_the_same_texels() {
     let lobe = ggx(Masking::HeightCorrelated);
     let (lut, large) = (ab(lobe), grid("nov", "roughness", 96));
     let task = task(&lut, &large, Precision::F16);
-    assert_eq!(stages(&task)[0].name, "s2304");
+    assert_eq!(rules(&task)[0].name, "s2304");
     let whole = certify(&task, None, &|_| ()).unwrap();
     let rule = Rule::named("h640").unwrap();
     let mut points = cpu::bake(lobe, &large, &rule, &|_| ());
@@ -183,7 +190,8 @@ fn f32_is_rounded_correctly_where_that_is_cheap_and_else_within_its_bound() {
         // The certificate's bound holds, and it is the tolerance and half a step.
         let bound = certified.certificate.bound;
         assert!(pairs().all(|(value, truth)| (value - truth).abs() <= bound), "{size}");
-        assert!(bound <= Precision::F32.default_tolerance() + Precision::F32.half_step());
+        let most = Precision::F32.default_tolerance() + Precision::F32.half_step();
+        assert!(bound <= most, "{size}: {bound:e}, {most:e} allowed");
     }
 }
 
@@ -193,14 +201,14 @@ fn where_the_reference_is_worse_the_certificate_says_so() {
     let (lut, grid) = (ab(lobe), Grid::of(vec![0.2, 0.5, 0.9], vec![0.03 * 0.03, 0.5]));
     let certified = certify(&task(&lut, &grid, Precision::F16), None, &|_| ()).unwrap();
     let promise = &certified.certificate.promise;
-    assert!((1..=3).contains(&certified.certificate.undecided) && promise.contains("2e-6"), "{promise}");
+    assert!((1..=3).contains(&certified.certificate.undecided) && promise.contains("2.0e-6"), "{promise}");
     // Averages of Walter's term, which jumps.
     let walter = Microfacet { ndf: Ndf::BeckmannWalter, masking: Masking::HeightCorrelated };
     let lut = Lut::Energy(Energy::new(walter, F0::new(0.04).unwrap(), EnergyChannels::Average).unwrap());
     let grid = Grid::of(vec![0.5], (1..=40).map(|i| f64::from(i) / 40.0).collect());
     let certified = certify(&task(&lut, &grid, Precision::Unorm16), None, &|_| ()).unwrap();
     let promise = &certified.certificate.promise;
-    assert!(certified.certificate.undecided > 0 && promise.contains("as 1e-6"), "{promise}");
+    assert!(certified.certificate.undecided > 0 && promise.contains("as 2.1e-6"), "{promise}");
 }
 
 #[test]
@@ -238,7 +246,7 @@ fn a_certificate_stands_in_the_file_and_is_the_same_for_the_same_request() {
     let baked = || splitsum::bake(&request, &Backend::cpu(), &|_| ()).unwrap();
     let (one, other) = (baked(), baked());
     assert_eq!(one.table, other.table);
-    let bytes = one.table.values.iter().flat_map(|&value| splitsum::half::round(value).to_le_bytes());
+    let bytes = one.table.values.iter().flat_map(|value| splitsum::half::round(value).to_le_bytes());
     let hash = blake3::hash(&bytes.collect::<Vec<u8>>()).to_hex().to_string();
     assert_eq!(one.report.certificate().unwrap().blake3, hash);
 }

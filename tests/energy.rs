@@ -94,7 +94,8 @@ fn closed_forms_of_blinn_phong_and_charlie_hold() {
     assert!((integrator.integrate(blinn, 0.0, alpha_of_exponent(1.0)).b - 13.0 / 1680.0).abs() < 1e-15);
     // A smooth Blinn-Phong lobe with the implicit term keeps μ² of a mirror.
     assert!((integrator.integrate(blinn, 0.3, 1e-7).e() - 0.09).abs() < 1e-12);
-    assert_eq!(integrator.integrate(blinn, 0.3, 0.0).e(), 0.09);
+    // A mirror times μ²: five roundings.
+    assert!((integrator.integrate(blinn, 0.3, 0.0).e() - 0.09).abs() < 5.0 * f64::EPSILON * 0.09);
     let charlie = Microfacet { ndf: Ndf::Charlie, masking: Masking::Neubelt };
     let at = |mu, r: f64| integrator.integrate(charlie, mu, r * r).e();
     assert!((at(0.0, 0.5) - 0.9375).abs() < 1e-13 && (at(0.0, 1.0) - std::f64::consts::FRAC_2_PI).abs() < 1e-13);

@@ -12,6 +12,7 @@ use splitsum::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
 use splitsum::model::Masking;
 use splitsum::precision::Precision;
 use splitsum::request::{Accuracy, Request};
+use splitsum::stored::Stored;
 use splitsum::table::Table;
 use splitsum::units::F0;
 use splitsum::{bake, half};
@@ -36,7 +37,7 @@ fn read_exr(bytes: &[u8]) -> ((usize, usize), Vec<(String, FlatSamples)>, serde_
 #[test]
 fn exr_halves_are_the_correctly_rounded_values_row_by_row() {
     let table = table(DfgChannels::Ab, Precision::F16);
-    let (size, channels, _) = read_exr(&encode(std::slice::from_ref(&table), Format::Exr, Precision::F16).unwrap());
+    let (size, channels, _) = read_exr(&encode(std::slice::from_ref(&table), Format::Exr).unwrap());
     assert_eq!(size, (12, 5));
     let names: Vec<_> = channels.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["B", "G", "R"]);
@@ -57,9 +58,9 @@ fn exr_halves_are_the_correctly_rounded_values_row_by_row() {
 #[test]
 fn exr_floats_are_on_request() {
     let table = table(DfgChannels::Be, Precision::F32);
-    let (_, channels, metadata) = read_exr(&encode(std::slice::from_ref(&table), Format::Exr, Precision::F32).unwrap());
+    let (_, channels, metadata) = read_exr(&encode(std::slice::from_ref(&table), Format::Exr).unwrap());
     let FlatSamples::F32(red) = &channels[2].1 else { panic!("not f32") };
-    assert_eq!(red[7], table.values[14] as f32);
+    assert_eq!(red[7], table.values.get(14) as f32);
     assert_eq!(metadata["stored"], "f32");
     assert_eq!(metadata["channels"][1], "G = E (directional albedo at F = 1: E = A + B)");
 }
@@ -67,7 +68,7 @@ fn exr_floats_are_on_request() {
 #[test]
 fn metadata_names_every_convention() {
     let table = table(DfgChannels::E, Precision::F16);
-    let (.., metadata) = read_exr(&encode(std::slice::from_ref(&table), Format::Exr, Precision::F16).unwrap());
+    let (.., metadata) = read_exr(&encode(std::slice::from_ref(&table), Format::Exr).unwrap());
     assert_eq!(metadata["tool"], concat!("splitsum ", env!("CARGO_PKG_VERSION")));
     assert_eq!((&metadata["model"], &metadata["masking"]), (&"ggx".into(), &"height-correlated".into()));
     assert_eq!(metadata["roughness"], "alpha = roughness^2");
@@ -77,7 +78,7 @@ fn metadata_names_every_convention() {
     let certificate = &metadata["certificate"];
     assert_eq!((&certificate["texels"], &certificate["undecided"]), (&60.into(), &0.into()));
     assert_eq!(certificate["bound"].as_f64().unwrap(), Precision::F16.half_step());
-    assert_eq!(certificate["blake3"], table.hash(Precision::F16).unwrap());
+    assert_eq!(certificate["blake3"], table.hash());
     assert!(certificate["promise"].as_str().unwrap().contains("rounded once"));
     assert!(metadata.get("computed_by").is_none(), "the same file, whoever computed it");
     assert!(metadata["command"].as_str().unwrap().starts_with("splitsum bake --lut dfg --model ggx"));
@@ -90,7 +91,7 @@ fn a_table_that_is_not_certified_says_so_and_what_is_known_instead() {
     let uncertified = Accuracy::uncertified(&lut, Precision::F16);
     let request = Request::new(lut, axes.x, axes.y, uncertified, Precision::F16).unwrap();
     let table = bake(&request, &Backend::cpu(), &|_| ()).unwrap().table;
-    let (.., metadata) = read_exr(&encode(std::slice::from_ref(&table), Format::Exr, Precision::F16).unwrap());
+    let (.., metadata) = read_exr(&encode(std::slice::from_ref(&table), Format::Exr).unwrap());
     assert!(metadata.get("certificate").is_none());
     let known = &metadata["uncertified"];
     assert_eq!(known["computed_by"], "CPU, f64");
@@ -102,7 +103,7 @@ fn a_table_that_is_not_certified_says_so_and_what_is_known_instead() {
 #[test]
 fn the_same_table_gives_the_same_bytes() {
     for (format, precision) in [(Format::Exr, Precision::F16), (Format::Png, Precision::Unorm16)] {
-        let bytes = || encode(&[table(DfgChannels::Ab, precision)], format, precision).unwrap();
+        let bytes = || encode(&[table(DfgChannels::Ab, precision)], format).unwrap();
         assert!((0..8).all(|_| bytes() == bytes()));
     }
 }
@@ -110,13 +111,14 @@ fn the_same_table_gives_the_same_bytes() {
 #[test]
 fn png_holds_unorms() {
     let table = table(DfgChannels::Ab, Precision::Unorm16);
-    let bytes = encode(std::slice::from_ref(&table), Format::Png, Precision::Unorm16).unwrap();
+    let bytes = encode(std::slice::from_ref(&table), Format::Png).unwrap();
     let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
     let mut data = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut data).unwrap();
     assert_eq!((info.width, info.height, info.bit_depth), (12, 5, png::BitDepth::Sixteen));
     let sample = |i: usize| f64::from(u16::from_be_bytes([data[2 * i], data[2 * i + 1]]));
-    for (i, texel) in table.values.chunks(2).enumerate() {
+    for i in 0..60 {
+        let texel = table.texel(i % 12, i / 12);
         assert_eq!(sample(3 * i), (65535.0 * texel[0]).round());
         assert_eq!((sample(3 * i + 1), sample(3 * i + 2)), ((65535.0 * texel[1]).round(), 0.0));
     }
@@ -131,30 +133,50 @@ fn several_f0_are_layers_of_one_exr() {
         bake(&request, &Backend::cpu(), &|_| ()).unwrap().table
     };
     let tables = [table(0.5), table(0.02)];
-    let bytes = encode(&tables, Format::Exr, Precision::F32).unwrap();
+    let bytes = encode(&tables, Format::Exr).unwrap();
     let reader = read().no_deep_data().largest_resolution_level().all_channels().all_layers().all_attributes();
     let image = reader.from_buffered(Cursor::new(bytes)).unwrap();
     let names: Vec<_> = image.layer_data.iter().map(|l| l.attributes.layer_name.clone().unwrap().to_string()).collect();
     assert_eq!(names, ["F0 = 0.5", "F0 = 0.02"]);
     for (layer, table) in image.layer_data.iter().zip(&tables) {
         let FlatSamples::F32(green) = &layer.channel_data.list[1].sample_data else { panic!("not f32") };
-        let expected: Vec<f32> = table.values.chunks(3).map(|texel| texel[1] as f32).collect();
+        let expected: Vec<f32> = table.plane(1).into_iter().map(|value| value as f32).collect();
         assert_eq!(*green, expected);
     }
-    assert!(encode(&tables, Format::Png, Precision::Unorm16).is_err());
+    assert!(encode(&tables, Format::Png).is_err());
 }
 
 #[test]
 fn values_that_a_precision_cannot_hold_are_refused() {
-    let mut table = table(DfgChannels::Ab, Precision::F16);
-    for bad in [f64::NAN, f64::INFINITY, 1e6] {
-        table.values[3] = bad;
-        assert!(encode(std::slice::from_ref(&table), Format::Exr, Precision::F16).is_err(), "{bad} was stored");
+    for (precision, bad) in [
+        (Precision::F16, [f64::NAN, f64::INFINITY, 65520.0, -1e6]),
+        (Precision::F32, [f64::NAN, f64::INFINITY, 1e39, -1e39]),
+        (Precision::Unorm16, [f64::NAN, f64::INFINITY, 1.00001, -0.00001]),
+        (Precision::Unorm8, [f64::NAN, f64::INFINITY, 1.002, -0.002]),
+    ] {
+        for bad in bad {
+            assert!(Stored::of(precision, &[0.5, bad]).is_err(), "{bad} was stored as {precision:?}");
+        }
     }
-    table.values[3] = 1.1;
-    assert!(encode(std::slice::from_ref(&table), Format::Exr, Precision::F16).is_ok());
-    assert!(encode(std::slice::from_ref(&table), Format::Png, Precision::Unorm8).is_err());
-    // Within the table's own error of 1, 1 is meant.
-    table.values[3] = 1.0 + 0.5 * table.provenance.worth.error_bound();
-    assert!(encode(std::slice::from_ref(&table), Format::Png, Precision::Unorm8).is_ok());
+    // What rounds to the end of the range is the end of the range.
+    for (precision, value, end) in [
+        (Precision::F16, 65519.9, 65504.0),
+        (Precision::Unorm16, 1.0 + 0.49 / 65535.0, 1.0),
+        (Precision::Unorm8, -0.49 / 255.0, 0.0),
+    ] {
+        assert_eq!(Stored::of(precision, &[value]).unwrap().get(0), end);
+    }
+}
+
+#[test]
+fn stored_values_read_back() {
+    for precision in [Precision::F16, Precision::F32, Precision::F64, Precision::Unorm16, Precision::Unorm8] {
+        let values: Vec<f64> = (0..=1000).map(|i| f64::from(i) / 1000.0).collect();
+        let stored = Stored::of(precision, &values).unwrap();
+        assert_eq!(stored.bytes().len(), values.len() * precision.bytes());
+        for (got, value) in stored.iter().zip(values) {
+            assert_eq!(got, precision.nearest(value), "{precision:?}");
+            assert!((got - value).abs() <= precision.half_step());
+        }
+    }
 }

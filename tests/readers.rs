@@ -38,7 +38,7 @@ fn openexr_reads(python: &std::ffi::OsStr) -> Result<(), Failed> {
     let table = splitsum::bake(&request, &Backend::cpu(), &|_| ())?.table;
     let folder = tempfile::tempdir()?;
     let file = folder.path().join("dfg.exr");
-    std::fs::write(&file, encode(std::slice::from_ref(&table), Format::Exr, Precision::F16)?)?;
+    std::fs::write(&file, encode(std::slice::from_ref(&table), Format::Exr)?)?;
     let output = Command::new(python).args(["-c", SCRIPT]).arg(&file).output()?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     if !output.status.success() {
@@ -47,7 +47,7 @@ fn openexr_reads(python: &std::ffi::OsStr) -> Result<(), Failed> {
     // Blue is empty, green is B, red is A: sorted by name.
     for (line, (name, channel)) in text.lines().zip([("B", None), ("G", Some(1)), ("R", Some(0))]) {
         let mut expected = format!("{name} float16 3 5");
-        for texel in table.values.chunks(2) {
+        for texel in (0..15).map(|i| table.texel(i % 5, i / 5)) {
             let value = channel.map_or(0.0, |channel: usize| half::value(half::round(texel[channel])));
             expected.push_str(&format!(" {value:?}"));
         }

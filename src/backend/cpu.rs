@@ -12,68 +12,97 @@ use rayon::prelude::*;
 /// Texels that a thread takes at a time: some 0.2 ms of work.
 const CHUNK: usize = 64;
 
+/// A rule made ready for an integrand: its nodes, and of a surrogate the fit.
+#[derive(Clone, Debug)]
+pub struct Baker {
+    /// The rule.
+    pub rule: Rule,
+    integrand: Integrand,
+    integrator: Integrator,
+    fit: Option<Fit>,
+}
+
+/// A surrogate, and how far it reaches; where it does not, its source integrates.
+#[derive(Clone, Debug)]
+struct Fit {
+    rule: SurrogateRule,
+    surrogate: Surrogate,
+}
+
+impl Baker {
+    /// Works out the nodes, and fits a surrogate.
+    pub fn new(integrand: impl Into<Integrand>, rule: &Rule) -> Self {
+        let (integrand, integrator) = (integrand.into(), rule.integrator());
+        let fit = match rule.method {
+            Method::Surrogate(rule) => {
+                let points = rule.points();
+                let values = integrate(integrand, &integrator, points.len(), &|i| points[i], &|_| ());
+                Some(Fit { rule, surrogate: rule.fit(&points, &values) })
+            }
+            _ => None,
+        };
+        Baker { rule: *rule, integrand, integrator, fit }
+    }
+
+    /// (A, B) at every point of the grid, in its order.
+    pub fn bake(&self, grid: &Grid, progress: Progress) -> Vec<ScaleBias> {
+        if self.fit.is_none() {
+            let point = |index| grid.point(index);
+            return integrate(self.integrand, &self.integrator, grid.len(), &point, progress);
+        }
+        let mut integrals = vec![ScaleBias::default(); grid.len()];
+        integrals.par_chunks_mut(grid.mus.len()).zip(&grid.alphas).for_each(|(texels, &alpha)| {
+            self.row(alpha, &grid.mus, texels);
+            progress(texels.len());
+        });
+        integrals
+    }
+
+    /// (A, B) at the named points of the grid.
+    pub fn bake_at(&self, grid: &Grid, indices: &[usize]) -> Vec<ScaleBias> {
+        let points: Vec<(f64, f64)> = indices.iter().map(|&index| grid.point(index)).collect();
+        self.bake_points(&points)
+    }
+
+    /// (A, B) at these (n·v, α).
+    pub fn bake_points(&self, points: &[(f64, f64)]) -> Vec<ScaleBias> {
+        if self.fit.is_none() {
+            return integrate(self.integrand, &self.integrator, points.len(), &|i| points[i], &|_| ());
+        }
+        let rows: Vec<&[(f64, f64)]> = points.chunk_by(|a, b| a.1 == b.1).collect();
+        let row = |points: &&[(f64, f64)]| {
+            let mus: Vec<f64> = points.iter().map(|point| point.0).collect();
+            let mut integrals = vec![ScaleBias::default(); mus.len()];
+            self.row(points[0].1, &mus, &mut integrals);
+            integrals
+        };
+        rows.par_iter().flat_map_iter(row).collect()
+    }
+
+    /// (A, B) at these n·v of one α.
+    fn row(&self, alpha: f64, mus: &[f64], texels: &mut [ScaleBias]) {
+        match &self.fit {
+            Some(fit) if fit.rule.covers(alpha) => {
+                vectorised(Row { surrogate: &fit.surrogate, alpha, mus, texels });
+            }
+            _ => in_groups(self.integrand, &self.integrator, |i| (mus[i], alpha), texels),
+        }
+    }
+}
+
 /// (A, B) at every point of the grid, in its order.
 pub fn bake(integrand: impl Into<Integrand>, grid: &Grid, rule: &Rule, progress: Progress) -> Vec<ScaleBias> {
-    let integrand = integrand.into();
-    match rule.method {
-        Method::Surrogate(surrogate) => {
-            let interpolation = Interpolation::new(integrand, &surrogate, rule);
-            let mut integrals = vec![ScaleBias::default(); grid.len()];
-            integrals.par_chunks_mut(grid.mus.len()).zip(&grid.alphas).for_each(|(texels, &alpha)| {
-                interpolation.row(alpha, &grid.mus, texels);
-                progress(texels.len());
-            });
-            integrals
-        }
-        _ => integrate(integrand, &rule.integrator(), grid.len(), &|index| grid.point(index), progress),
-    }
+    Baker::new(integrand, rule).bake(grid, progress)
 }
 
 /// (A, B) at the named points of the grid.
 pub fn bake_at(integrand: impl Into<Integrand>, grid: &Grid, rule: &Rule, indices: &[usize]) -> Vec<ScaleBias> {
-    let points: Vec<(f64, f64)> = indices.iter().map(|&index| grid.point(index)).collect();
-    bake_points(integrand, &points, rule)
+    Baker::new(integrand, rule).bake_at(grid, indices)
 }
 
 /// (A, B) at these (n·v, α).
 pub fn bake_points(integrand: impl Into<Integrand>, points: &[(f64, f64)], rule: &Rule) -> Vec<ScaleBias> {
-    let integrand = integrand.into();
-    let Method::Surrogate(surrogate) = rule.method else {
-        return integrate(integrand, &rule.integrator(), points.len(), &|i| points[i], &|_| ());
-    };
-    let interpolation = Interpolation::new(integrand, &surrogate, rule);
-    let rows: Vec<&[(f64, f64)]> = points.chunk_by(|a, b| a.1 == b.1).collect();
-    let row = |points: &&[(f64, f64)]| {
-        let mus: Vec<f64> = points.iter().map(|point| point.0).collect();
-        let mut integrals = vec![ScaleBias::default(); mus.len()];
-        interpolation.row(points[0].1, &mus, &mut integrals);
-        integrals
-    };
-    rows.par_iter().flat_map_iter(row).collect()
-}
-
-/// A surrogate, and what integrates where it does not reach.
-struct Interpolation {
-    integrand: Integrand,
-    rule: SurrogateRule,
-    surrogate: Surrogate,
-    source: Integrator,
-}
-
-impl Interpolation {
-    fn new(integrand: Integrand, rule: &SurrogateRule, source: &Rule) -> Self {
-        let (points, source) = (rule.points(), source.integrator());
-        let surrogate = rule.fit(&points, &integrate(integrand, &source, points.len(), &|i| points[i], &|_| ()));
-        Interpolation { integrand, rule: *rule, surrogate, source }
-    }
-
-    /// (A, B) at these n·v.
-    fn row(&self, alpha: f64, mus: &[f64], texels: &mut [ScaleBias]) {
-        if self.rule.covers(alpha) {
-            return vectorised(Row { surrogate: &self.surrogate, alpha, mus, texels });
-        }
-        in_groups(self.integrand, &self.source, |i| (mus[i], alpha), texels);
-    }
+    Baker::new(integrand, rule).bake_points(points)
 }
 
 /// A row of a grid.

@@ -2,8 +2,7 @@
 //! sizes that the host needs read off the result.
 
 use crate::error::{Error, Result};
-use crate::integrate::Integrand;
-use crate::model::{Diffuse, Masking, Microfacet, Ndf};
+use crate::model::{Masking, Microfacet, Ndf};
 use crate::quadrature::slope_map::Power;
 use crate::sampling::Sampler;
 use naga::back::spv;
@@ -23,8 +22,6 @@ pub mod wgsl {
     pub const BLINN_PHONG: &str = include_str!("../../shaders/blinn_phong.wgsl");
     /// Twin of `model::charlie`.
     pub const CHARLIE: &str = include_str!("../../shaders/charlie.wgsl");
-    /// Twin of `model::diffuse`.
-    pub const DIFFUSE: &str = include_str!("../../shaders/diffuse.wgsl");
     /// Twin of `model::masking`.
     pub const MASKING: &str = include_str!("../../shaders/masking.wgsl");
     /// Twin of `quadrature::slope_map`.
@@ -104,14 +101,9 @@ fn smooth_limit(mu: f32) -> f32 {{ return {limit}; }}
     [wgsl::SPECIAL, &models, wgsl::RULE, wgsl::SLOPE_MAP, wgsl::H_SPACE, &glue].join("\n")
 }
 
-/// The shader that bakes the numbers of an integrand.
-pub fn bake_kernel(integrand: Integrand, power: Power) -> Result<Kernel> {
-    match integrand {
-        Integrand::Specular(lobe) => {
-            compile(&[&lobe_source(lobe, power), &quadrature("h_space"), wgsl::INTEGRATE, wgsl::BAKE].join("\n"))
-        }
-        Integrand::Diffuse(diffuse) => compile(&[&diffuse_source(diffuse), wgsl::BAKE].join("\n")),
-    }
+/// The shader that bakes the numbers of a lobe.
+pub fn bake_kernel(lobe: Microfacet, power: Power) -> Result<Kernel> {
+    compile(&[&lobe_source(lobe, power), &quadrature("h_space"), wgsl::INTEGRATE, wgsl::BAKE].join("\n"))
 }
 
 /// The shader that bakes the same by a sampler.
@@ -142,19 +134,6 @@ pub fn quadrature(function: &str) -> String {
 /// The shader that renders a row of a preview.
 pub fn preview_kernel(lobe: Microfacet, power: Power) -> Result<Kernel> {
     compile(&[&lobe_source(lobe, power), wgsl::PREVIEW].join("\n"))
-}
-
-/// The WGSL that gives a diffuse lobe's albedo under the name that a bake calls.
-fn diffuse_source(diffuse: Diffuse) -> String {
-    let albedo = match diffuse {
-        Diffuse::Lambert => "lambert_albedo()",
-        Diffuse::Burley => "burley_albedo(mu, sqrt(alpha))",
-        Diffuse::OrenNayar => "oren_nayar_albedo(mu, sqrt(alpha))",
-        Diffuse::Eon => "eon_albedo(mu, sqrt(alpha))",
-    };
-    let glue =
-        format!("fn integrate(mu: f32, alpha: f32, rule: Rule) -> vec2<f32> {{ return vec2<f32>({albedo}, 0.0); }}");
-    [wgsl::SPECIAL, wgsl::FRESNEL, wgsl::DIFFUSE, wgsl::RULE, &glue].join("\n")
 }
 
 /// Compiles WGSL whose compute entry point is `main`.

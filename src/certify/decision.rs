@@ -1,5 +1,6 @@
 //! What is asked of a value: which stored value it is, whether that is beyond doubt, and whether two of them agree.
 
+use crate::ball::Ball;
 use crate::integrate::ScaleBias;
 use crate::lut::{Grid, Lut};
 use crate::precision::Precision;
@@ -8,9 +9,6 @@ use crate::precision::Precision;
 fn unsigned(value: f64) -> f64 {
     value + 0.0
 }
-
-/// What the arithmetic of channels may err, relative: eight units in the last place.
-const ROUNDING: f64 = 2e-15;
 
 /// What is to be certified.
 #[derive(Clone, Copy, Debug)]
@@ -26,49 +24,51 @@ pub struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// The stored `values` of a texel at n·v = `mu`, from its integral and its row's average, each with what it may be off; and
-    /// whether they are beyond doubt.
+    /// The stored `values` of a texel at n·v = `mu`, from its integral and its row's average; and whether they are beyond doubt:
+    /// whether whatever the truth may be rounds to the same.
     pub(super) fn decide(
         &self,
         mu: f64,
-        (integral, errors): (ScaleBias, ScaleBias),
-        (average, average_errors): (ScaleBias, ScaleBias),
+        integral: ScaleBias<Ball>,
+        average: ScaleBias<Ball>,
         values: &mut [f64],
     ) -> bool {
-        // A channel is monotonic along this line from one end to the other.
-        let at = |t: f64| {
-            let integral = ScaleBias { a: integral.a + t * errors.a, b: integral.b + t * errors.b };
-            let average = ScaleBias { a: average.a - t * average_errors.a, b: average.b - t * average_errors.b };
-            self.lut.values(mu, integral, average)
-        };
-        let (one, other) = (at(-1.0), at(1.0));
         let mut decided = true;
-        for (channel, stored) in values.iter_mut().enumerate() {
-            let (low, high) = (one[channel].min(other[channel]), one[channel].max(other[channel]));
-            // The arithmetic of a family's channels may err by a few units in the last place.
-            let slack = if matches!(self.lut, Lut::Energy(_)) { ROUNDING * high.abs() } else { 0.0 };
-            let (low, high) = (self.precision.nearest(low - slack), self.precision.nearest(high + slack));
-            decided &= low == high;
-            *stored = unsigned(low);
-        }
-        if !decided {
-            self.store(mu, integral, average, values);
+        for (stored, channel) in values.iter_mut().zip(self.lut.values(mu, integral, average)) {
+            decided &= self.precision.nearest(channel.low()) == self.precision.nearest(channel.high());
+            *stored = self.stored(channel.value);
         }
         decided
     }
 
-    /// The stored `values` of a texel from its integral and its row's average.
-    #[inline]
-    pub(super) fn store(&self, mu: f64, integral: ScaleBias, average: ScaleBias, values: &mut [f64]) {
-        for (stored, value) in values.iter_mut().zip(self.lut.values(mu, integral, average)) {
-            *stored = unsigned(self.precision.nearest(value));
+    /// The stored `values` of a texel, and the most that any of them may be off before it is rounded: of values above 1 relative.
+    pub(super) fn store(
+        &self,
+        mu: f64,
+        integral: ScaleBias<Ball>,
+        average: ScaleBias<Ball>,
+        values: &mut [f64],
+    ) -> f64 {
+        let mut worst = 0.0f64;
+        for (stored, channel) in values.iter_mut().zip(self.lut.values(mu, integral, average)) {
+            worst = worst.max(channel.error / channel.value.abs().max(1.0));
+            *stored = self.stored(channel.value);
         }
+        worst
+    }
+
+    /// The value nearest to this one; this one itself where the storage does not reach so far.
+    #[inline]
+    fn stored(&self, value: f64) -> f64 {
+        let nearest = self.precision.nearest(value);
+        if self.precision.holds(nearest) { unsigned(nearest) } else { value }
     }
 
     /// How near the nearest of a texel's values is to a boundary of rounding.
-    pub(super) fn distance_to_boundary(&self, mu: f64, integral: ScaleBias, average: ScaleBias) -> f64 {
+    pub(super) fn distance_to_boundary(&self, mu: f64, integral: ScaleBias, average: ScaleBias<Ball>) -> f64 {
+        let integral = integral.within(ScaleBias::zero());
         let values = self.lut.values(mu, integral, average).into_iter().take(self.lut.channels().len());
-        values.map(|value| self.precision.distance_to_boundary(value)).fold(f64::INFINITY, f64::min)
+        values.map(|value| self.precision.distance_to_boundary(value.value)).fold(f64::INFINITY, f64::min)
     }
 }
 

@@ -10,8 +10,8 @@ use serde::Serialize;
 /// Texels for each one that the CPU repeats: a workgroup's worth, so that no workgroup can go missing unnoticed.
 const RUN: usize = 64;
 
-/// Texels that are measured against the reference, at half a millisecond each.
-const MEASURED: usize = 128;
+/// Texels of a table that are measured against the reference, at half a millisecond each.
+pub const MEASURED: usize = 128;
 
 /// The largest differences over a sample of texels: absolute, or of albedos above 1 relative.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -99,7 +99,7 @@ pub(super) fn sample(grid: &Grid) -> impl Iterator<Item = usize> {
     corners(grid).into_iter().chain(runs)
 }
 
-/// Measures a table by `rule` against the reference, at the corners and at texels scattered over it; an error beyond what
+/// Measures a table by `rule` against the reference, at the corners and at others scattered over it, so many `texels` in all; an error beyond what
 /// the rule and the `arithmetic` promise fails.
 pub fn measure(
     integrand: impl Into<Integrand>,
@@ -107,14 +107,17 @@ pub fn measure(
     rule: &Rule,
     arithmetic: f64,
     table: &[ScaleBias],
+    texels: usize,
 ) -> Result<Deviation> {
     let integrand = integrand.into();
-    let sample: Vec<usize> = if grid.len() <= MEASURED {
+    let texels = texels.max(corners(grid).len() + 1);
+    let sample: Vec<usize> = if grid.len() <= texels {
         (0..grid.len()).collect()
     } else {
-        let stratum = |i: usize| i * grid.len() / MEASURED;
+        let strata = texels - corners(grid).len();
+        let stratum = |i: usize| i * grid.len() / strata;
         let scattered = |i| stratum(i) + scatter(i) % (stratum(i + 1) - stratum(i));
-        corners(grid).into_iter().chain((0..MEASURED - 4).map(scattered)).collect()
+        corners(grid).into_iter().chain((0..strata).map(scattered)).collect()
     };
     let truth = cpu::bake_at(integrand, grid, &rule.yardstick(), &sample);
     let (worst, (mu, alpha)) = Deviation::between(grid, &sample, table, &truth);

@@ -8,21 +8,21 @@
 
 use super::decision::{Task, check_apart};
 use super::deviation::{check_range, sample, scatter};
-use crate::backend::{Progress, cpu};
+use super::stages::{ErrorsAt, Stages, summary};
+use super::tally::Tally;
+use crate::backend::Progress;
+use crate::backend::cpu::Baker;
+use crate::ball::Ball;
 use crate::certificate::{Certificate, Stage};
 use crate::error::{Error, Result};
 use crate::integrate::average::{average_error, average_nodes, averages as row_averages};
-use crate::integrate::rule::{Method, REFERENCE, Rule};
+use crate::integrate::rule::Rule;
 use crate::integrate::{Integrand, ScaleBias};
 use crate::lut::Grid;
-use crate::precision::Precision;
 use rayon::prelude::*;
 
 /// Texels that pass through the second stage though the first has decided them, so that one checks the other.
 const AUDITED: usize = 64;
-
-/// So many values of a table, at the most, are rounded correctly to f32, whose steps are as fine as the fast stages' bounds.
-const LARGEST_F32: usize = 4096;
 
 /// A table that a device has computed.
 #[derive(Clone, Copy, Debug)]
@@ -46,68 +46,58 @@ pub struct Certified {
     pub stages: Vec<Stage>,
 }
 
-/// The rules of the CPU's stages, each finer than the one before.
-pub fn stages(task: &Task) -> Vec<Rule> {
-    let integrand = task.lut.integrand();
-    let texels = task.grid.len();
-    let first = match task.precision {
-        Precision::F32 => Rule::for_cpu(integrand, task.tolerance, texels),
-        _ => Rule::for_rounding(integrand, texels),
-    };
-    // At a roughness where Charlie's rules are as sharp as any lobe's.
-    let error = |rule: &Rule| rule.errors_at(integrand, 1.0, ScaleBias { a: 1.0, b: 0.0 }).a;
-    let rest = ["d10240", "reference", "closed-form"].into_iter().filter_map(|name| Rule::named(name).ok());
-    let mut rules: Vec<Rule> = first.into_iter().collect();
-    for rule in rest.filter(|rule| rule.applies_to(integrand)) {
-        if rules.last().is_none_or(|last| error(&rule) < error(last)) {
-            rules.push(rule);
-        }
-    }
-    rules
-}
-
 /// Certifies every texel of a table.
 pub fn certify(task: &Task, device: Option<DeviceTable>, progress: Progress) -> Result<Certified> {
-    let rules = stages(task);
+    certify_by(task, &Stages::of(task), device, progress)
+}
+
+/// The same through these stages.
+pub fn certify_by(task: &Task, stages: &Stages, device: Option<DeviceTable>, progress: Progress) -> Result<Certified> {
+    let (values, tally) = certify_band(task, stages, device, progress)?;
+    let certificate = tally.certificate(task.lut, task.precision, stages)?;
+    Ok(Certified { values, certificate, stages: tally.stages })
+}
+
+/// Certifies the texels of a band of a table through the stages of the whole: the stored values, and what was found.
+pub fn certify_band(
+    task: &Task,
+    stages: &Stages,
+    device: Option<DeviceTable>,
+    progress: Progress,
+) -> Result<(Vec<f64>, Tally)> {
     let texels = task.grid.len();
     let mut run = Run {
         task,
+        stages,
         device,
         channels: task.lut.channels().len(),
-        margin: rules.len().checked_sub(2).map(|i| rules[i]),
-        values: Vec::new(),
+        values: vec![0.0; texels * task.lut.channels().len()],
         open: vec![true; texels],
         seen: None,
-        stages: Vec::new(),
-        decided_by_reference: 0,
-        smallest_distance: None,
+        tally: Tally { texels, ..Tally::default() },
     };
-    run.values = vec![0.0; texels * run.channels];
-    run.decide_by_device(&rules[0])?;
-    for (i, rule) in rules.iter().enumerate() {
-        run.stage(i, rule, rules.len() - 1 - i, progress)?;
-        if !run.open.contains(&true) || !run.rounds_correctly() {
+    run.decide_by_device()?;
+    for stage in 0..stages.bakers.len() {
+        run.stage(stage, progress)?;
+        if !run.open.contains(&true) || !stages.rounds_correctly {
             break;
         }
     }
-    Ok(run.finish(&rules))
+    run.tally.undecided = run.open.iter().filter(|&&open| open).count();
+    Ok((run.values, run.tally))
 }
 
 /// What has come out so far.
 struct Run<'a> {
     task: &'a Task<'a>,
+    stages: &'a Stages,
     device: Option<DeviceTable<'a>>,
     channels: usize,
-    /// The last rule before the reference. Earlier stages keep twice its error as a margin: so whatever they decide it would have
-    /// decided too, and which texels are left to the reference does not depend on them.
-    margin: Option<Rule>,
     values: Vec<f64>,
     /// Which texels are not decided.
     open: Vec<bool>,
     seen: Option<Seen>,
-    stages: Vec<Stage>,
-    decided_by_reference: usize,
-    smallest_distance: Option<f64>,
+    tally: Tally,
 }
 
 /// What the previous stage of the CPU gave.
@@ -148,14 +138,71 @@ impl Texels {
     }
 }
 
-/// What a stage's A and B may be off at (n·v, α) where it gives this value.
-type ErrorsAt<'a> = dyn Fn(f64, f64, ScaleBias) -> ScaleBias + Sync + 'a;
+/// What a stage has decided of some texels.
+#[derive(Clone, Copy, Default)]
+struct Verdict {
+    /// How many.
+    decided: usize,
+    /// The most that a value of the others may be off.
+    error: f64,
+}
 
-fn summary(by: String, errors_at: &ErrorsAt, texels: usize, decided: usize) -> Stage {
-    // At α = 1, above the roughness below which Charlie's bounds are others.
-    let errors = |b: f64| errors_at(1.0, 1.0, ScaleBias { a: 0.0, b });
-    let decades = [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
-    Stage { by, error_of_a: errors(1.0).a, error_of_b: decades.map(|b| errors(b).b), texels, decided }
+impl Verdict {
+    fn with(self, other: Verdict) -> Verdict {
+        Verdict { decided: self.decided + other.decided, error: self.error.max(other.error) }
+    }
+}
+
+/// A stage as texels are decided by it.
+struct Decider<'a> {
+    task: &'a Task<'a>,
+    averages: &'a [ScaleBias<Ball>],
+    errors_at: &'a ErrorsAt<'a>,
+    /// Twice the error of this rule is kept as a margin.
+    margin: Option<Rule>,
+    /// Whether mirrors are in f64, and err by no more than its arithmetic.
+    exact_mirrors: bool,
+    rounds_correctly: bool,
+}
+
+impl Decider<'_> {
+    /// The integral at (n·v, α) with what it may be off.
+    fn integral(&self, mu: f64, alpha: f64, value: ScaleBias) -> ScaleBias<Ball> {
+        let integrand = self.task.lut.integrand();
+        if let (true, 0.0, Integrand::Specular(lobe)) = (self.exact_mirrors, alpha, integrand) {
+            let mu = Ball::exact(mu);
+            return ScaleBias::mirror(mu, lobe.smooth_limit(mu));
+        }
+        let mut errors = (self.errors_at)(alpha, value);
+        if let Some(margin) = &self.margin {
+            errors.add(2.0, margin.errors_at(integrand, alpha, value));
+        }
+        value.within(errors)
+    }
+
+    /// Takes over a texel's values if this stage decides them, and the best guess if it does not.
+    fn texel(&self, (row, column): (usize, usize), value: ScaleBias, values: &mut [f64], open: &mut bool) -> Verdict {
+        let (mu, alpha) = (self.task.grid.mus[column], self.task.grid.alphas[row]);
+        let integral = self.integral(mu, alpha, value);
+        let decided = self.rounds_correctly && self.task.decide(mu, integral, self.averages[row], values);
+        *open = !decided;
+        if decided {
+            return Verdict { decided: 1, error: 0.0 };
+        }
+        Verdict { decided: 0, error: self.task.store(mu, integral, self.averages[row], values) }
+    }
+
+    /// The same for the open texels of a row.
+    fn row(&self, row: usize, integrals: &[ScaleBias], values: &mut [f64], open: &mut [bool]) -> Verdict {
+        let texels = values.chunks_exact_mut(values.len() / open.len()).zip(open).zip(integrals).enumerate();
+        let mut verdict = Verdict::default();
+        for (column, ((values, open), &value)) in texels {
+            if *open {
+                verdict = verdict.with(self.texel((row, column), value, values, open));
+            }
+        }
+        verdict
+    }
 }
 
 impl Run<'_> {
@@ -163,64 +210,65 @@ impl Run<'_> {
         self.task.lut.integrand()
     }
 
-    /// Whether values are rounded correctly: where steps are as fine as f32's, only if they are few or in closed form.
-    fn rounds_correctly(&self) -> bool {
-        let closed = matches!(self.integrand(), Integrand::Diffuse(_));
-        self.task.precision != Precision::F32 || closed || self.values.len() <= LARGEST_F32
-    }
-
-    /// The device's stage; `averaging` is the CPU's rule for averages.
-    fn decide_by_device(&mut self, averaging: &Rule) -> Result<()> {
+    /// The device's stage.
+    fn decide_by_device(&mut self) -> Result<()> {
         let Some(DeviceTable { points, rule, name }) = self.device else { return Ok(()) };
         let integrand = self.integrand();
         check_range(integrand, self.task.grid, rule, points)?;
         let texels = Texels::All(self.open.len());
-        let errors_at = |_, alpha, value| rule.device_errors_at(integrand, alpha, value);
-        // Steps of f32 are finer than a device is exact.
-        let decided = if self.task.precision == Precision::F32 {
-            0
-        } else {
-            let averages = self.averages(averaging, &texels);
-            self.decide(&texels, points, &averages, self.margin, &errors_at)
+        let errors_at = |alpha, value| rule.device_errors_at(integrand, alpha, value);
+        let averages = self.averages(&self.stages.bakers[0], &texels);
+        let decider = Decider {
+            task: self.task,
+            averages: &averages,
+            errors_at: &errors_at,
+            margin: self.stages.margin(),
+            exact_mirrors: false,
+            rounds_correctly: self.stages.rounds_correctly,
         };
-        self.stages.push(summary(format!("{name}, {}", rule.name), &errors_at, self.open.len(), decided));
+        let decided = self.decide(&texels, points, &decider);
+        self.tally.stages.push(summary(format!("{name}, {}", rule.name), &errors_at, self.open.len(), decided));
         Ok(())
     }
 
-    /// A stage of the CPU, with `finer` stages after it.
-    fn stage(&mut self, index: usize, rule: &Rule, finer: usize, progress: Progress) -> Result<()> {
-        let (grid, integrand) = (self.task.grid, self.integrand());
-        // A surrogate is cheap enough to check a device at every texel.
-        let whole = index == 0 && (self.device.is_none() || matches!(rule.method, Method::Surrogate(_)));
+    /// A stage of the CPU.
+    fn stage(&mut self, index: usize, progress: Progress) -> Result<()> {
+        let (grid, integrand, baker) = (self.task.grid, self.integrand(), &self.stages.bakers[index]);
+        let whole = index == 0 && (self.device.is_none() || self.stages.interpolates(index));
         let texels = if whole { Texels::All(grid.len()) } else { Texels::Some(self.asked(index)) };
         let integrals = match &texels {
-            Texels::All(_) => cpu::bake(integrand, grid, rule, progress),
-            Texels::Some(texels) => cpu::bake_at(integrand, grid, rule, texels),
+            Texels::All(_) => baker.bake(grid, progress),
+            Texels::Some(texels) => baker.bake_at(grid, texels),
         };
-        self.compare(&texels, &integrals, rule)?;
-        let averages = self.averages(rule, &texels);
-        let errors_at = |mu, alpha, value| match integrand {
-            Integrand::Specular(lobe) if alpha == 0.0 && ScaleBias::mirror_is_exact(mu, lobe.smooth_limit(mu)) => {
-                ScaleBias::zero()
-            }
-            _ => rule.errors_at(integrand, alpha, value),
+        self.compare(&texels, &integrals, &baker.rule)?;
+        let averages = self.averages(baker, &texels);
+        let errors_at = |alpha, value| baker.rule.errors_at(integrand, alpha, value);
+        let finer = self.stages.bakers.len() - 1 - index;
+        let decider = Decider {
+            task: self.task,
+            averages: &averages,
+            errors_at: &errors_at,
+            margin: self.stages.margin().filter(|_| finer > 1),
+            exact_mirrors: true,
+            rounds_correctly: self.stages.rounds_correctly,
         };
-        let margin = self.margin.filter(|_| finer > 1);
         let asked = self.open.iter().filter(|&&open| open).count();
-        let open = if rule.name == REFERENCE.name { self.open.clone() } else { Vec::new() };
-        let decided = self.decide(&texels, &integrals, &averages, margin, &errors_at);
-        if rule.name == REFERENCE.name {
-            self.decided_by_reference = decided;
+        let open = if self.stages.is_reference(index) { self.open.clone() } else { Vec::new() };
+        let decided = self.decide(&texels, &integrals, &decider);
+        if self.stages.is_reference(index) {
+            self.tally.by_reference = decided;
             let distance = |(place, &integral): (usize, &ScaleBias)| {
                 let texel = texels.get(place);
-                let average = averages[texel / grid.mus.len()].0;
-                let distance = self.task.distance_to_boundary(grid.point(texel).0, integral, average);
-                (open[texel] && !self.open[texel]).then_some(distance)
+                let distance = || {
+                    let average = averages[texel / grid.mus.len()];
+                    self.task.distance_to_boundary(grid.point(texel).0, integral, average)
+                };
+                (open[texel] && !self.open[texel]).then(distance)
             };
-            self.smallest_distance = integrals.iter().enumerate().filter_map(distance).min_by(f64::total_cmp);
+            self.tally.smallest_distance = integrals.iter().enumerate().filter_map(distance).min_by(f64::total_cmp);
         }
-        self.stages.push(summary(format!("CPU f64, {}", rule.name), &errors_at, asked, decided));
-        self.seen = Some(Seen { rule: *rule, texels, integrals });
+        self.tally.stages.push(summary(format!("CPU f64, {}", baker.rule.name), &errors_at, asked, decided));
+        self.seen = Some(Seen { rule: baker.rule, texels, integrals });
         Ok(())
     }
 
@@ -271,107 +319,50 @@ impl Run<'_> {
         integrals.par_iter().enumerate().try_for_each(compare)
     }
 
-    /// The averages of the rows of these texels by a rule, and what they may be off; zeros where none are needed.
-    fn averages(&self, rule: &Rule, texels: &Texels) -> Vec<(ScaleBias, ScaleBias)> {
-        let grid = self.task.grid;
-        let mut averages = vec![(ScaleBias::default(), ScaleBias::default()); grid.alphas.len()];
+    /// The averages of the rows of these texels by a rule, with what they may be off; zeros where none are needed.
+    fn averages(&self, baker: &Baker, texels: &Texels) -> Vec<ScaleBias<Ball>> {
+        let (grid, integrand) = (self.task.grid, self.integrand());
+        let mut averages = vec![ScaleBias::default(); grid.alphas.len()];
         if self.task.lut.needs_averages() {
             let mut rows: Vec<usize> = (0..texels.len()).map(|place| texels.get(place) / grid.mus.len()).collect();
             rows.dedup();
             let nodes = average_nodes();
             let alphas = rows.iter().map(|&row| grid.alphas[row]).collect();
             let directions = Grid::of(nodes.iter().map(|node| node.0).collect(), alphas);
-            let integrals = cpu::bake(self.integrand(), &directions, rule, &|_| ());
+            let integrals = baker.bake(&directions, &|_| ());
             for (average, row) in row_averages(&nodes, &integrals).into_iter().zip(rows) {
-                let mut errors = rule.errors_at(self.integrand(), grid.alphas[row], average);
-                let quadrature = average_error(self.integrand());
+                let mut errors = baker.rule.errors_at(integrand, grid.alphas[row], average);
+                let quadrature = average_error(integrand);
                 errors.add(1.0, ScaleBias { a: quadrature, b: quadrature });
-                averages[row] = (average, errors);
+                averages[row] = average.within(errors);
             }
         }
         averages
     }
 
     /// Takes over what these integrals decide, and the best guess where they do not; tells how many texels they do.
-    fn decide(
-        &mut self,
-        texels: &Texels,
-        integrals: &[ScaleBias],
-        averages: &[(ScaleBias, ScaleBias)],
-        margin: Option<Rule>,
-        errors_at: &ErrorsAt,
-    ) -> usize {
-        let (channels, task, rounds, integrand) = (self.channels, self.task, self.rounds_correctly(), self.integrand());
-        let Grid { mus, alphas, .. } = task.grid;
-        let decide = |(row, column): (usize, usize), value: ScaleBias, values: &mut [f64], open: &mut bool| {
-            let (mu, alpha, average) = (mus[column], alphas[row], averages[row]);
-            if !rounds {
-                task.store(mu, value, average.0, values);
-                return 0;
-            }
-            let mut errors = errors_at(mu, alpha, value);
-            if let Some(margin) = &margin {
-                errors.add(2.0, margin.errors_at(integrand, alpha, value));
-            }
-            *open = !task.decide(mu, (value, errors), average, values);
-            usize::from(!*open)
-        };
-        let width = mus.len();
-        match texels {
+    fn decide(&mut self, texels: &Texels, integrals: &[ScaleBias], decider: &Decider) -> usize {
+        let (channels, width) = (self.channels, self.task.grid.mus.len());
+        let verdict = match texels {
             Texels::All(_) => {
-                let rows = self.values.par_chunks_mut(channels * width).zip(self.open.par_chunks_mut(width));
-                let decided =
-                    rows.zip(integrals.par_chunks(width)).enumerate().map(|(row, ((values, open), integrals))| {
-                        let texels = values.chunks_exact_mut(channels).zip(open).zip(integrals).enumerate();
-                        let open = texels.filter(|(_, ((_, open), _))| **open);
-                        open.map(|(i, ((values, open), &value))| decide((row, i), value, values, open)).sum::<usize>()
-                    });
-                decided.sum()
+                let values = self.values.par_chunks_mut(channels * width);
+                let rows = values.zip(self.open.par_chunks_mut(width)).zip(integrals.par_chunks(width)).enumerate();
+                let verdicts = rows.map(|(row, ((values, open), integrals))| decider.row(row, integrals, values, open));
+                verdicts.reduce(Verdict::default, Verdict::with)
             }
             Texels::Some(texels) => {
-                let mut count = 0;
+                let mut verdict = Verdict::default();
                 for (&texel, &value) in texels.iter().zip(integrals) {
-                    let open = &mut self.open[texel];
+                    let (open, values) = (&mut self.open[texel], &mut self.values[texel * channels..][..channels]);
                     if *open {
-                        let values = &mut self.values[texel * channels..][..channels];
-                        count += decide((texel / width, texel % width), value, values, open);
+                        verdict = verdict.with(decider.texel((texel / width, texel % width), value, values, open));
                     }
                 }
-                count
+                verdict
             }
-        }
-    }
-
-    fn finish(self, rules: &[Rule]) -> Certified {
-        let (texels, undecided) = (self.open.len(), self.open.iter().filter(|&&open| open).count());
-        let half_step = self.task.precision.half_step();
-        let averages = if self.task.lut.needs_averages() { average_error(self.integrand()) } else { 0.0 };
-        let reference_error = rules.last().map_or(0.0, |rule| rule.bound(self.integrand())).max(averages);
-        let rounds = self.rounds_correctly();
-        let error = if rounds { reference_error } else { rules[0].bound(self.integrand()) };
-        let promise = if undecided == 0 {
-            "every value is the true integral, rounded once to the nearest, ties to even".into()
-        } else if !rounds {
-            format!(
-                "before it was rounded, every value was within {error:e} of the true integral (of albedos above 1 relative)"
-            )
-        } else {
-            format!(
-                "every value is the true integral, rounded once to the nearest, ties to even; but {undecided} texels, with a value \
-                 as near to a boundary of rounding as {error:e} (of albedos above 1 relative), may be the other nearest"
-            )
         };
-        let certificate = Certificate {
-            promise,
-            bound: half_step + if undecided == 0 { 0.0 } else { error },
-            texels,
-            decided_before_reference: texels - undecided - self.decided_by_reference,
-            decided_by_reference: self.decided_by_reference,
-            undecided,
-            reference_error,
-            smallest_distance: self.smallest_distance,
-            blake3: String::new(),
-        };
-        Certified { values: self.values, certificate, stages: self.stages }
+        // Whatever is open now was seen by this stage, so that only the last one's errors count.
+        self.tally.error = verdict.error;
+        verdict.decided
     }
 }

@@ -122,7 +122,7 @@ fn bake(job: &Job, backend: &Backend, arguments: &BakeArgs) -> Result<Vec<Baked>
     let baked: Vec<crate::Baked> = requests.iter().map(bake).collect::<Result<_>>()?;
     drop(progress);
     let (tables, reports): (Vec<Table>, Vec<Report>) = baked.into_iter().map(|b| (b.table, b.report)).unzip();
-    output::write(output, &encode(&tables, *format, job.precision())?)?;
+    output::write(output, &encode(&tables, *format)?)?;
     if !arguments.quiet && !arguments.json {
         let name = if output == "-" { "standard output" } else { output };
         for (request, report) in requests.iter().zip(&reports) {

@@ -255,13 +255,6 @@ impl Size {
     }
 }
 
-impl Job {
-    /// How values are stored.
-    pub fn precision(&self) -> Precision {
-        self.requests.first().map_or(Precision::F16, |request| request.precision)
-    }
-}
-
 impl Numbers {
     /// The numbers, no two alike and no more than 64.
     fn parse(&self) -> Result<Vec<f64>> {

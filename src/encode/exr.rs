@@ -1,51 +1,83 @@
 //! OpenEXR: R, G, B in half or float, losslessly compressed. three.js refuses files with fewer than three channels.
 
 use super::metadata::{KEY, TOOL, metadata};
-use super::rgb_planes;
+use super::{failed, texel_bytes};
 use crate::error::{Error, Result};
 use crate::precision::Precision;
 use crate::table::Table;
-use ::exr::image::Layers;
+use ::exr::error::Error as ExrError;
+use ::exr::image::{Layers, SpecificChannels};
 use ::exr::meta::attribute::AttributeValue;
 use ::exr::prelude::{
-    AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer,
-    LayerAttributes, LineOrder, Text, Vec2, WritableImage, f16,
+    Blocks, Compression, Encoding, Image, ImageAttributes, IntegerBounds, Layer, LayerAttributes, LineOrder, Text,
+    Vec2, WritableImage, f16,
 };
+use std::io::{Seek, Write};
 
-/// The bytes of an EXR file; several tables are as many parts, named for their F0.
-pub fn encode(tables: &[Table], precision: Precision) -> Result<Vec<u8>> {
-    let layers: Layers<AnyChannels<FlatSamples>> =
-        tables.iter().map(|table| layer(table, precision, tables.len() > 1)).collect::<Result<_>>()?;
-    let size = tables.first().map_or(Vec2(1, 1), |table| Vec2(table.x.size, table.y.size));
-    let image = Image::from_layers(ImageAttributes::new(IntegerBounds::from_dimensions(size)), layers);
-    let mut file = std::io::Cursor::new(Vec::new());
-    image.write().to_buffered(&mut file).map_err(|error| failed(&error.to_string()))?;
-    Ok(file.into_inner())
+const ENCODING: Encoding =
+    Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
+
+/// Writes an EXR file; several tables are as many parts, named for their F0. Lines are read from the tables as they are
+/// compressed: no second copy of the values is made.
+pub fn write(tables: &[Table], file: impl Write + Seek) -> Result<()> {
+    // A layer's type depends on how it reads a texel, so that each precision has a type of its own.
+    macro_rules! write_as {
+        ($sample:ty, $from:expr) => {{
+            let layer = |table| {
+                let pixel = move |Vec2(i, j)| {
+                    let [red, green, blue] = [0, 1, 2].map(|channel| $from(texel_bytes(table, i, j, channel)));
+                    (red, green, blue)
+                };
+                let channels = SpecificChannels::build()
+                    .with_channel::<$sample>("R")
+                    .with_channel::<$sample>("G")
+                    .with_channel::<$sample>("B")
+                    .with_pixel_fn(pixel);
+                let attributes = attributes(table, tables.len() > 1)?;
+                Ok(Layer::new(size_of(table), attributes, ENCODING, channels))
+            };
+            let layers: Layers<_> = tables.iter().map(layer).collect::<Result<_>>()?;
+            let size = tables.first().map_or(Vec2(1, 1), size_of);
+            let image = Image::from_layers(ImageAttributes::new(IntegerBounds::from_dimensions(size)), layers);
+            let writer = image.write();
+            // The crate has threads of its own: none beside the only one that there is to be.
+            let written = match rayon::current_num_threads() {
+                1 => writer.non_parallel().to_buffered(file),
+                _ => writer.to_buffered(file),
+            };
+            written.map_err(refused)
+        }};
+    }
+    let precision = tables.first().map(|table| table.values.precision());
+    match precision.filter(|precision| tables.iter().all(|table| table.values.precision() == *precision)) {
+        Some(Precision::F16) => write_as!(f16, f16::from_le_bytes),
+        Some(Precision::F32) => write_as!(f32, f32::from_le_bytes),
+        _ => Err(internal("tables that are not all f16, or all f32")),
+    }
 }
 
-fn failed(text: &str) -> Error {
+fn size_of(table: &Table) -> Vec2<usize> {
+    Vec2(table.x.size, table.y.size)
+}
+
+fn internal(text: &str) -> Error {
     Error::Internal(format!("EXR: {text}"))
 }
 
-fn layer(table: &Table, precision: Precision, named: bool) -> Result<Layer<AnyChannels<FlatSamples>>> {
-    let samples = |plane: Vec<u32>| match precision {
-        Precision::F16 => Ok(FlatSamples::F16(plane.into_iter().map(|bits| f16::from_bits(bits as u16)).collect())),
-        Precision::F32 => Ok(FlatSamples::F32(plane.into_iter().map(f32::from_bits).collect())),
-        _ => Err(failed("no such precision")),
-    };
-    let [red, green, blue] = rgb_planes(table, precision)?;
-    let channels = [("R", red), ("G", green), ("B", blue)]
-        .into_iter()
-        .map(|(name, plane)| samples(plane).map(|samples| AnyChannel::new(name, samples)));
+fn refused(error: ExrError) -> Error {
+    match error {
+        ExrError::Io(error) => failed(error),
+        other => internal(&other.to_string()),
+    }
+}
+
+fn attributes(table: &Table, named: bool) -> Result<LayerAttributes> {
     let mut attributes = LayerAttributes { software_name: Some(Text::from(TOOL)), ..LayerAttributes::default() };
     if let (true, Some(f0)) = (named, table.provenance.f0) {
         attributes.layer_name = Some(Text::from(format!("F0 = {f0}").as_str()));
     }
     // One custom attribute and no more: the crate keeps them in a hash map, whose order is not the same twice.
-    let text = Text::new_or_none(metadata(table, precision)?).ok_or_else(|| failed("metadata that is not ASCII"))?;
+    let text = Text::new_or_none(metadata(table)?).ok_or_else(|| internal("metadata that is not ASCII"))?;
     attributes.other.insert(Text::from(KEY), AttributeValue::Text(text));
-    let encoding =
-        Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
-    let channels = AnyChannels::sort(channels.collect::<Result<_>>()?);
-    Ok(Layer::new(Vec2(table.x.size, table.y.size), attributes, encoding, channels))
+    Ok(attributes)
 }

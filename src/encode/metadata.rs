@@ -41,7 +41,8 @@ impl AxisText {
 }
 
 /// The text, in ASCII.
-pub fn metadata(table: &Table, precision: Precision) -> Result<String> {
+pub fn metadata(table: &Table) -> Result<String> {
+    let precision = table.values.precision();
     let channel = |(i, letter): (usize, &str)| match table.channels.get(i) {
         Some(channel) => format!("{letter} = {} ({})", channel.name, channel.meaning),
         None => format!("{letter} = 0 (unused)"),

@@ -3,6 +3,7 @@
 //! Karis, "Real Shading in Unreal Engine 4", 2013; the multiple-scattering packing (B, E) is that of Lagarde and
 //! Golubev, "The road toward unified rendering with Unity's high definition rendering pipeline", 2018, and of Filament.
 
+use crate::ball::Ball;
 use crate::integrate::ScaleBias;
 use crate::model::Microfacet;
 use crate::table::Channel;
@@ -43,11 +44,11 @@ impl DfgChannels {
     }
 
     /// Their values, and zeros for the channels that there are not.
-    pub fn values(self, integral: ScaleBias) -> [f64; 3] {
+    pub fn values(self, integral: ScaleBias<Ball>) -> [Ball; 3] {
         match self {
-            DfgChannels::Ab => [integral.a, integral.b, 0.0],
-            DfgChannels::Be => [integral.b, integral.e(), 0.0],
-            DfgChannels::E => [integral.e(), 0.0, 0.0],
+            DfgChannels::Ab => [integral.a, integral.b, Ball::default()],
+            DfgChannels::Be => [integral.b, integral.e(), Ball::default()],
+            DfgChannels::E => [integral.e(), Ball::default(), Ball::default()],
         }
     }
 }

@@ -16,9 +16,10 @@
 //! is both (Shirley et al. 1997; Kelemen and Szirmay-Kalos 2001; Ashikhmin and Shirley 2000 approximate it by polynomials). It is
 //! the product of one factor for each direction, (1-S(μ))/√(1-S_avg), over π: that factor is what a texel holds.
 
+use crate::ball::Ball;
 use crate::error::{Error, Result};
 use crate::integrate::ScaleBias;
-use crate::model::fresnel::schlick_weight;
+use crate::model::fresnel::schlick_complement;
 use crate::model::{Masking, Microfacet};
 use crate::table::Channel;
 use crate::units::{F0, word};
@@ -68,16 +69,18 @@ impl Energy {
 
     /// The values of a texel at `mu` with these integrals, on a row or column with these averages; zeros for the channels that
     /// there are not.
-    pub fn values(&self, mu: f64, integral: ScaleBias, average: ScaleBias) -> [f64; 3] {
+    pub fn values(&self, mu: f64, integral: ScaleBias<Ball>, average: ScaleBias<Ball>) -> [Ball; 3] {
+        let (zero, one) = (Ball::default(), Ball::exact(1.0));
         match self.channels {
             EnergyChannels::Average => [average.a, average.b, average.e()],
-            EnergyChannels::KullaConty => [integral.e(), average.e(), 0.0],
-            EnergyChannels::Turquin => [(1.0 - integral.e()) / integral.e(), 0.0, 0.0],
+            EnergyChannels::KullaConty => [integral.e(), average.e(), zero],
+            EnergyChannels::Turquin => [(one - integral.e()) / integral.e(), zero, zero],
             EnergyChannels::Split => {
                 let f0 = self.f0.get();
-                let left = 1.0 - integral.at_f0(f0);
-                let naive = 1.0 - (f0 + (1.0 - f0) * schlick_weight(mu));
-                [naive, left, left / (1.0 - average.at_f0(f0)).sqrt()]
+                let left = one - integral.at_f0(f0);
+                // 1 - F = 1 - F0 - (1 - F0) (1 - μ)^5.
+                let naive = (one - Ball::exact(f0)) * schlick_complement(Ball::exact(mu));
+                [naive, left, left / (one - average.at_f0(f0)).sqrt()]
             }
         }
     }

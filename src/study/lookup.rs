@@ -10,6 +10,7 @@ use crate::lut::{Dfg, DfgChannels, Grid, Lut};
 use crate::model::Microfacet;
 use crate::precision::Precision;
 use crate::quadrature::point_set::PointSet;
+use crate::table::Table;
 use crate::units::word;
 use serde::{Deserialize, Serialize};
 
@@ -77,8 +78,9 @@ impl Lookup {
     pub fn of(&self, lobe: Microfacet, axes: Axes, size: usize, values: &[ScaleBias]) -> Result<Errors> {
         let (x, y) = axes_of(axes, size)?;
         let lut = Lut::Dfg(Dfg { lobe, channels: DfgChannels::Ab });
-        let values = values.iter().flat_map(|v| [v.a, v.b]).collect();
-        let table = Grid::new(&x, &y)?.table(lut.channels(), (x, y), values, lut.provenance());
+        let values: Vec<f64> = values.iter().flat_map(|v| [v.a, v.b]).collect();
+        let values = Grid::new(&x, &y)?.stored(&lut, Precision::F64, &values)?;
+        let table = Table { x, y, channels: lut.channels().to_vec(), values, provenance: lut.provenance() };
         let parameter = |r: f64| if axes.1.starts_with("alpha") { r * r } else { r };
         let read = |&(mu, r): &(f64, f64)| {
             let texel = table.bilinear(mu, parameter(r));

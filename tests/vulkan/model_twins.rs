@@ -4,13 +4,11 @@ use crate::twins::{Twin, small, unit};
 use splitsum::model::beckmann::{beckmann_slope_density, beckmann_smith, beckmann_width, walter_smith};
 use splitsum::model::blinn_phong::{blinn_phong_end, blinn_phong_slope_density};
 use splitsum::model::charlie::{charlie_lambda, charlie_slope_density, charlie_smith, charlie_width};
-use splitsum::model::diffuse::{burley_albedo, eon_albedo, lambert_albedo, oren_nayar_albedo};
 use splitsum::model::fresnel::schlick_weight;
 use splitsum::model::ggx::{ggx_slope_density, ggx_smith};
 use splitsum::model::masking::{height_correlated, implicit, joint_smith, neubelt, schlick_smith, separable};
 use splitsum::special::{
-    arc_cosine, atanh_ratio, expm1_reduced, exponential, ierfc, log1p_ratio, logarithm, logarithm_parts, power_of_two,
-    power_parts,
+    atanh_ratio, expm1_reduced, exponential, ierfc, log1p_ratio, logarithm, logarithm_parts, power_of_two, power_parts,
 };
 
 pub fn twins() -> Vec<Twin> {
@@ -153,24 +151,6 @@ pub fn twins() -> Vec<Twin> {
             arguments: |random| [0.5 * small(random), small(random), small(random), 0.0],
             // 7e-7 of Λ, which is made of three from n·l = 1/2 up.
             ulps: 13.0,
-            scale: 0.0,
-        },
-        Twin {
-            name: "arc_cosine",
-            wgsl: "vec4(arc_cosine(p.x), 0.0, 0.0, 0.0)",
-            rust: Box::new(four(|a| arc_cosine(a[0]))),
-            arguments: |random| [unit(random), 0.0, 0.0, 0.0],
-            ulps: 6.0,
-            scale: 0.0,
-        },
-        Twin {
-            name: "burley_albedo, oren_nayar_albedo, eon_albedo, lambert_albedo",
-            wgsl: "vec4(burley_albedo(p.x, p.y), oren_nayar_albedo(p.x, p.y), eon_albedo(p.x, p.y), lambert_albedo())",
-            rust: Box::new(|[mu, r, ..]| {
-                [burley_albedo(mu, r), oren_nayar_albedo(mu, r), eon_albedo(mu, r), lambert_albedo()]
-            }),
-            arguments: |random| [unit(random), unit(random), 0.0, 0.0],
-            ulps: 6.0,
             scale: 0.0,
         },
         Twin {

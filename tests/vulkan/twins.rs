@@ -265,7 +265,7 @@ fn all(gpu: &Gpu, ndf: Ndf, masking: Masking, power: Power) -> Result<(), Failed
 
 fn source(lobe: Microfacet, nodes: &HSpaceNodes) -> String {
     let lobe = lobe_source(lobe, nodes.power);
-    [&lobe, &quadrature("h_space"), wgsl::DIFFUSE, wgsl::INTEGRATE, HELPERS].join("\n")
+    [&lobe, &quadrature("h_space"), wgsl::INTEGRATE, HELPERS].join("\n")
 }
 
 pub fn compare(gpu: &Gpu, source: &str, nodes: &[[f32; 2]], twin: &Twin) -> Result<(), Failed> {

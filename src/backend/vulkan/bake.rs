@@ -6,8 +6,8 @@ use super::pipeline::{Elapsed, Pipeline};
 use crate::backend::Progress;
 use crate::backend::shader::{Kernel, bake_kernel, samples_kernel};
 use crate::error::{Error, Result};
+use crate::integrate::ScaleBias;
 use crate::integrate::h_space::{HSpaceNodes, HSpaceRule};
-use crate::integrate::{Integrand, ScaleBias};
 use crate::lut::Grid;
 use crate::model::Microfacet;
 use crate::quadrature::point_set::Point;
@@ -36,15 +36,9 @@ pub struct DeviceBake {
     pub device_seconds: Option<f64>,
 }
 
-/// (A, B) at every point of the grid, in its order, integrated by `rule` in f32; a diffuse lobe takes no notice of the rule.
-pub fn bake(
-    gpu: &Gpu,
-    integrand: impl Into<Integrand>,
-    grid: &Grid,
-    rule: &HSpaceRule,
-    progress: Progress,
-) -> Result<DeviceBake> {
-    run(gpu, &bake_kernel(integrand.into(), rule.power)?, &node_data(&rule.nodes()), rule.counts(), grid, progress)
+/// (A, B) of a lobe at every point of the grid, in its order, integrated by `rule` in f32.
+pub fn bake(gpu: &Gpu, lobe: Microfacet, grid: &Grid, rule: &HSpaceRule, progress: Progress) -> Result<DeviceBake> {
+    run(gpu, &bake_kernel(lobe, rule.power)?, &node_data(&rule.nodes()), rule.counts(), grid, progress)
 }
 
 /// The same by an estimator over `points`.

@@ -6,7 +6,9 @@ use crate::cli::output;
 use crate::cli::table_args::TableArgs;
 use crate::encode::Format;
 use crate::error::{Error, Result};
+use crate::precision::Precision;
 use crate::report::map::{panels, sequential};
+use crate::request::{Accuracy, Request};
 
 pub fn run(table: &TableArgs) -> Result<()> {
     let job = table.job()?;
@@ -16,7 +18,13 @@ pub fn run(table: &TableArgs) -> Result<()> {
     output::check(&job.output)?;
     let backend = Backend::open(BackendChoice::Auto, &GpuOptions::default())?;
     for request in &job.requests {
-        let table = crate::bake(request, &backend, &|_| ())?.table;
+        // As they are integrated: a storage may not hold what the picture's scale shows.
+        let accuracy = match request.accuracy {
+            Accuracy::Certified(_) => Accuracy::uncertified(&request.lut, Precision::F64),
+            accuracy => accuracy,
+        };
+        let request = Request::new(request.lut, request.x, request.y, accuracy, Precision::F64)?;
+        let table = crate::bake(&request, &backend, &|_| ())?.table;
         let (n, size) = (table.channels.len(), (table.x.size, table.y.size));
         let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let channels: Vec<Vec<f64>> = (0..n).map(|c| table.plane(c)).collect();

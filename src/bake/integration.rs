@@ -1,0 +1,100 @@
+//! The integrals of a table that is not certified: by one rule, on the CPU or on a device, checked on a sample.
+
+use crate::backend::Progress;
+use crate::backend::cpu::Baker;
+use crate::backend::vulkan::bake::{DeviceBake, bake};
+use crate::backend::vulkan::gpu::Gpu;
+use crate::ball::Ball;
+use crate::certify::deviation::{self, Deviation};
+use crate::error::{Error, Result};
+use crate::integrate::average::{average_error, average_nodes, averages};
+use crate::integrate::rule::{Method, Rule, f32_arithmetic};
+use crate::integrate::{Integrand, ScaleBias};
+use crate::lut::Grid;
+use crate::report::Seconds;
+
+/// How the integrals are computed, and what the checks have found so far.
+pub(super) struct Integration<'a> {
+    pub integrand: Integrand,
+    pub baker: Baker,
+    pub gpu: Option<&'a Gpu>,
+    /// Texels of each grid that are measured against the reference.
+    pub measured_texels: usize,
+    pub checked: Checked,
+}
+
+/// What the checks have found over all grids.
+#[derive(Default)]
+pub(super) struct Checked {
+    pub cross_check: Deviation,
+    pub measured: Deviation,
+    pub seconds: Seconds,
+    pub device_seconds: Option<f64>,
+}
+
+impl Integration<'_> {
+    /// What an integral may be off.
+    pub fn bound(&self) -> f64 {
+        self.baker.rule.bound(self.integrand) + self.arithmetic()
+    }
+
+    /// Of it the arithmetic: f32's on a device; the rules' bounds are rounded up by far more than f64 adds.
+    fn arithmetic(&self) -> f64 {
+        if self.gpu.is_some() { f32_arithmetic(self.integrand) } else { 0.0 }
+    }
+
+    /// A value with what it may be off: of albedos above 1 relative.
+    pub fn within_bound(&self, value: ScaleBias, besides: f64) -> ScaleBias<Ball> {
+        let error = (self.bound() + besides) * value.e().max(1.0);
+        value.within(ScaleBias { a: error, b: error })
+    }
+
+    /// The average of each row of a grid.
+    pub fn averages(&mut self, grid: &Grid) -> Result<Vec<ScaleBias<Ball>>> {
+        let nodes = average_nodes();
+        let directions = grid.at_directions(nodes.iter().map(|node| node.0).collect());
+        let averages = averages(&nodes, &self.over(&directions, &|_| ())?);
+        let error = average_error(self.integrand);
+        Ok(averages.into_iter().map(|average| self.within_bound(average, error)).collect())
+    }
+
+    /// Integrates over a grid, and checks what comes out.
+    pub fn over(&mut self, grid: &Grid, progress: Progress) -> Result<Vec<ScaleBias>> {
+        let arithmetic = self.arithmetic();
+        let Integration { integrand, baker, gpu, checked, .. } = self;
+        let rule = &baker.rule;
+        let start = std::time::Instant::now();
+        let integrals = match gpu {
+            Some(gpu) => {
+                let baked = on_device(gpu, *integrand, grid, rule, progress)?;
+                checked.device_seconds = baked.device_seconds.map(|s| s + checked.device_seconds.unwrap_or(0.0));
+                baked.integrals
+            }
+            None => baker.bake(grid, progress),
+        };
+        checked.seconds.integrate += start.elapsed().as_secs_f64();
+        let start = std::time::Instant::now();
+        if gpu.is_some() {
+            let found = deviation::cross_check(*integrand, grid, rule, &integrals)?;
+            checked.cross_check = checked.cross_check.with(found);
+        }
+        let found = deviation::measure(*integrand, grid, rule, arithmetic, &integrals, self.measured_texels)?;
+        checked.measured = checked.measured.with(found);
+        checked.seconds.check += start.elapsed().as_secs_f64();
+        Ok(integrals)
+    }
+}
+
+/// The integrals of a specular lobe by a device.
+pub(super) fn on_device(
+    gpu: &Gpu,
+    integrand: Integrand,
+    grid: &Grid,
+    rule: &Rule,
+    progress: Progress,
+) -> Result<DeviceBake> {
+    match (integrand, rule.method) {
+        (Integrand::Specular(lobe), Method::HSpace(nodes)) => bake(gpu, lobe, grid, &nodes, progress),
+        _ => Err(Error::Internal(format!("rule {} on a device", rule.name))),
+    }
+}

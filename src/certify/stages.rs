@@ -1,0 +1,85 @@
+//! The stages of certification: which rules, each finer than the one before, made ready for a table.
+
+use super::decision::Task;
+use crate::backend::cpu::Baker;
+use crate::certificate::Stage;
+use crate::integrate::rule::{Method, REFERENCE, Rule};
+use crate::integrate::{Integrand, ScaleBias};
+use crate::precision::Precision;
+
+/// So many values of a table, at the most, are rounded correctly to f32, whose steps are as fine as the fast stages' bounds.
+pub const LARGEST_F32: usize = 4096;
+
+/// The stages of the CPU, ready for any part of a table.
+#[derive(Clone, Debug)]
+pub struct Stages {
+    pub(super) bakers: Vec<Baker>,
+    /// Whether values are rounded correctly: where steps are as fine as f32's, only if they are few or in closed form.
+    pub(super) rounds_correctly: bool,
+}
+
+/// The rules of the CPU's stages, each finer than the one before.
+pub fn rules(task: &Task) -> Vec<Rule> {
+    let integrand = task.lut.integrand();
+    let texels = task.grid.len();
+    let first = match task.precision {
+        Precision::F32 => Rule::for_cpu(integrand, task.tolerance, texels),
+        _ => Rule::for_rounding(integrand, texels),
+    };
+    // At a roughness where Charlie's rules are as sharp as any lobe's.
+    let error = |rule: &Rule| rule.errors_at(integrand, 1.0, ScaleBias { a: 1.0, b: 0.0 }).a;
+    let rest = ["d10240", "reference", "closed-form"].into_iter().filter_map(|name| Rule::named(name).ok());
+    let mut rules: Vec<Rule> = first.into_iter().collect();
+    for rule in rest.filter(|rule| rule.applies_to(integrand)) {
+        if rules.last().is_none_or(|last| error(&rule) < error(last)) {
+            rules.push(rule);
+        }
+    }
+    rules
+}
+
+impl Stages {
+    /// Those that serve a whole table.
+    pub fn of(task: &Task) -> Self {
+        Stages::by(task, &rules(task))
+    }
+
+    /// By these rules, each finer than the one before.
+    pub fn by(task: &Task, rules: &[Rule]) -> Self {
+        let integrand = task.lut.integrand();
+        let closed = matches!(integrand, Integrand::Diffuse(_));
+        let values = task.grid.len() * task.lut.channels().len();
+        Stages {
+            bakers: rules.iter().map(|rule| Baker::new(integrand, rule)).collect(),
+            rounds_correctly: task.precision != Precision::F32 || closed || values <= LARGEST_F32,
+        }
+    }
+
+    /// The last rule before the reference. Earlier stages keep twice its error as a margin: so whatever they decide it would have
+    /// decided too, and which texels are left to the reference does not depend on them.
+    pub(super) fn margin(&self) -> Option<Rule> {
+        let last = self.bakers.len().checked_sub(2).filter(|_| self.rounds_correctly);
+        last.map(|i| self.bakers[i].rule)
+    }
+
+    /// Whether the stage interpolates: cheap enough to check a device at every texel.
+    pub(super) fn interpolates(&self, stage: usize) -> bool {
+        matches!(self.bakers[stage].rule.method, Method::Surrogate(_))
+    }
+
+    /// Whether the stage is the reference.
+    pub(super) fn is_reference(&self, stage: usize) -> bool {
+        self.bakers[stage].rule.name == REFERENCE.name
+    }
+}
+
+/// What a stage's A and B may be off at (n·v, α) where it gives this value.
+pub(super) type ErrorsAt<'a> = dyn Fn(f64, ScaleBias) -> ScaleBias + Sync + 'a;
+
+/// What a stage did, in numbers for the report.
+pub(super) fn summary(by: String, errors_at: &ErrorsAt, texels: usize, decided: usize) -> Stage {
+    // At α = 1, above the roughness below which Charlie's bounds are others.
+    let errors = |b: f64| errors_at(1.0, ScaleBias { a: 0.0, b });
+    let decades = [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
+    Stage { by, error_of_a: errors(1.0).a, error_of_b: decades.map(|b| errors(b).b), texels, decided }
+}

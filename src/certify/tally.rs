@@ -1,0 +1,106 @@
+//! What the stages have found, over all bands of a table, and the certificate that says it.
+
+use super::stages::Stages;
+use crate::certificate::{Certificate, Stage};
+use crate::error::{Error, Result};
+use crate::integrate::average::average_error;
+use crate::lut::Lut;
+use crate::precision::Precision;
+
+/// What the stages have found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// How many texels there are.
+    pub texels: usize,
+    /// How many the reference had to decide.
+    pub by_reference: usize,
+    /// How many are left.
+    pub undecided: usize,
+    /// The most that a value may be off before it is rounded, of those that are not known to be rounded correctly; of values
+    /// above 1 relative.
+    pub error: f64,
+    /// The smallest distance from a boundary of rounding among the values that the reference decided.
+    pub smallest_distance: Option<f64>,
+    /// What each stage did.
+    pub stages: Vec<Stage>,
+}
+
+impl Tally {
+    /// What two bands have found together.
+    pub fn with(mut self, other: Tally) -> Tally {
+        let nearer = |a: f64, b: f64| a.min(b);
+        self.texels += other.texels;
+        self.by_reference += other.by_reference;
+        self.undecided += other.undecided;
+        self.error = self.error.max(other.error);
+        self.smallest_distance = match (self.smallest_distance, other.smallest_distance) {
+            (Some(a), Some(b)) => Some(nearer(a, b)),
+            (a, b) => a.or(b),
+        };
+        // Every band goes through the same stages in the same order, some no further than the first.
+        for (i, stage) in other.stages.into_iter().enumerate() {
+            match self.stages.get_mut(i) {
+                Some(own) => {
+                    own.texels += stage.texels;
+                    own.decided += stage.decided;
+                }
+                None => self.stages.push(stage),
+            }
+        }
+        self
+    }
+
+    /// The certificate; the hash is left to whoever knows the order of the file. An error where a channel's formula leaves no
+    /// bound of a value's error.
+    pub fn certificate(&self, lut: &Lut, precision: Precision, stages: &Stages) -> Result<Certificate> {
+        let Tally { texels, by_reference, undecided, error, smallest_distance, .. } = *self;
+        if !error.is_finite() {
+            return Err(unbounded());
+        }
+        let integrand = lut.integrand();
+        let averages = if lut.needs_averages() { average_error(integrand) } else { 0.0 };
+        let reference_error = stages.bakers.last().map_or(0.0, |baker| baker.rule.bound(integrand)).max(averages);
+        let rounded = "every value is the true integral, rounded once to the nearest, ties to even";
+        let at_most = rounded_up(error);
+        let promise = if !stages.rounds_correctly {
+            format!(
+                "before it was rounded, every value was within {at_most} of the true integral (of values above 1 relative)"
+            )
+        } else if undecided == 0 {
+            rounded.into()
+        } else {
+            format!(
+                "{rounded}; but {undecided} texels, with a value as near to a boundary of rounding as {at_most} (of values \
+                 above 1 relative), may be the other nearest"
+            )
+        };
+        Ok(Certificate {
+            promise,
+            bound: precision.half_step() + error,
+            texels,
+            decided_before_reference: texels - undecided - by_reference,
+            decided_by_reference: by_reference,
+            undecided,
+            reference_error,
+            smallest_distance,
+            blake3: String::new(),
+        })
+    }
+}
+
+/// A channel's formula leaves no bound of its error.
+pub fn unbounded() -> Error {
+    let got = "a channel that divides by what may be 0 within the integral's error";
+    let cure = "give a smaller --tolerance, or an --f0 farther from 1";
+    Error::bad_input("accuracy", "a bound of every value's error", got, cure)
+}
+
+/// The number to two digits, rounded up.
+fn rounded_up(number: f64) -> String {
+    let text = format!("{number:.1e}");
+    if text.parse().is_ok_and(|shown: f64| shown >= number) {
+        return text;
+    }
+    // Half a unit of the second digit is at most 5 % of the number.
+    format!("{:.1e}", number * 1.05)
+}

@@ -1,0 +1,92 @@
+//! A table's values as they fill, band by band: packed in the order of the file, and whatever the storage cannot hold remembered.
+
+use super::{Grid, Lut};
+use crate::error::{Error, Result};
+use crate::precision::Precision;
+use crate::stored::Stored;
+use crate::units::word;
+use rayon::prelude::*;
+
+/// The values of a table, of which some are still to come.
+#[derive(Debug)]
+pub struct Sheet<'a> {
+    lut: &'a Lut,
+    grid: &'a Grid,
+    values: Stored,
+    /// The value farthest outside of what the storage holds, and its place in the order of the grid.
+    excess: Option<(f64, usize)>,
+}
+
+impl<'a> Sheet<'a> {
+    /// A sheet of zeros; an error where there is no memory for it.
+    pub fn new(lut: &'a Lut, grid: &'a Grid, precision: Precision) -> Result<Self> {
+        let values = Stored::zeros(precision, grid.len() * lut.channels().len())?;
+        Ok(Sheet { lut, grid, values, excess: None })
+    }
+
+    /// Takes the values of the α from row `first` of the grid on, in the order of the grid, each as the storage holds it or, where
+    /// it does not, as it is.
+    pub fn put(&mut self, first: usize, values: &[f64]) {
+        let (n, width, precision) = (self.lut.channels().len(), self.grid.mus.len(), self.values.precision());
+        let (size, alphas) = (precision.bytes(), self.grid.alphas.len());
+        let bytes = self.values.bytes_mut();
+        if self.grid.transposed {
+            // The α of the band are a part of each row of the table.
+            let place = |row: &mut [u8], mu: usize| {
+                let texels = row[first * n * size..].chunks_exact_mut(n * size);
+                texels.zip(values.chunks_exact(n).skip(mu).step_by(width)).for_each(|(bytes, values)| {
+                    pack(precision, values, bytes);
+                });
+            };
+            bytes.par_chunks_mut(alphas * n * size).enumerate().for_each(|(mu, row)| place(row, mu));
+        } else {
+            let rows = bytes[first * width * n * size..].par_chunks_mut(width * n * size);
+            rows.zip(values.par_chunks(width * n)).for_each(|(bytes, values)| pack(precision, values, bytes));
+        }
+        self.remember_excess(first * width * n, values);
+    }
+
+    /// The values, once all are there; an error where one of them cannot be held, which names the largest.
+    pub fn finish(self) -> Result<Stored> {
+        let Some((value, place)) = self.excess else { return Ok(self.values) };
+        let channels = self.lut.channels();
+        let (mu, alpha) = self.grid.point(place / channels.len());
+        let channel = channels[place % channels.len()].name;
+        let at = format!("at n.v = {mu}, alpha = {alpha}");
+        if value.is_nan() {
+            return Err(Error::Internal(format!("{channel} is no number {at}")));
+        }
+        let precision = self.values.precision();
+        let (low, high) = precision.range();
+        let holds = |wider: &&Precision| wider.holds(wider.nearest(value));
+        let wider: Vec<String> = [Precision::F16, Precision::F32].iter().filter(holds).map(word).collect();
+        let cure = match wider.is_empty() {
+            true => "raise the min of an axis, where the values grow beyond all bounds".into(),
+            false => format!("store them in {}, in an .exr", wider.join(" or ")),
+        };
+        let which = if value < low { "smallest" } else { "largest" };
+        let expected = format!("values from {low} to {high}, which is what {} holds", word(precision));
+        let got = format!("{value:.5} as the {which}, channel {channel} {at}");
+        Err(Error::bad_input("precision", expected, got, cure))
+    }
+
+    fn remember_excess(&mut self, first: usize, values: &[f64]) {
+        let precision = self.values.precision();
+        let fits = |value: &f64| precision.holds(precision.nearest(*value));
+        if values.par_iter().all(fits) {
+            return;
+        }
+        let (low, high) = precision.range();
+        let beyond = |value: f64| if value.is_nan() { f64::INFINITY } else { (value - high).max(low - value) };
+        let places = values.iter().copied().enumerate().filter(|(_, value)| !fits(value));
+        let farthest = places.map(|(i, value)| (value, first + i)).chain(self.excess);
+        self.excess = farthest.max_by(|a, b| beyond(a.0).total_cmp(&beyond(b.0)));
+    }
+}
+
+/// Writes values side by side.
+fn pack(precision: Precision, values: &[f64], bytes: &mut [u8]) {
+    for (&value, bytes) in values.iter().zip(bytes.chunks_exact_mut(precision.bytes())) {
+        precision.write(value, bytes);
+    }
+}

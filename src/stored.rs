@@ -1,0 +1,73 @@
+//! Numbers as a file stores them: packed, in one precision.
+
+use crate::error::{Error, Result};
+use crate::precision::Precision;
+
+/// Numbers in the bytes that a file holds, little-endian.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stored {
+    precision: Precision,
+    bytes: Vec<u8>,
+}
+
+impl Stored {
+    /// So many zeros; an error where there is no memory for them.
+    pub fn zeros(precision: Precision, count: usize) -> Result<Self> {
+        let mut bytes = Vec::new();
+        let size = count * precision.bytes();
+        bytes.try_reserve_exact(size).map_err(|_| Error::out_of_memory("the table", size))?;
+        bytes.resize(size, 0);
+        Ok(Stored { precision, bytes })
+    }
+
+    /// These values, each rounded to the nearest; an error where one cannot be held.
+    pub fn of(precision: Precision, values: &[f64]) -> Result<Self> {
+        let mut stored = Stored::zeros(precision, values.len())?;
+        for (&value, bytes) in values.iter().zip(stored.bytes.chunks_exact_mut(precision.bytes())) {
+            let nearest = precision.nearest(value);
+            if !precision.holds(nearest) {
+                let (low, high) = precision.range();
+                let expected = format!("values from {low} to {high}");
+                return Err(Error::bad_input("precision", expected, value.to_string(), "choose f16 or f32"));
+            }
+            precision.write(nearest, bytes);
+        }
+        Ok(stored)
+    }
+
+    /// How they are stored.
+    pub fn precision(&self) -> Precision {
+        self.precision
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.bytes.len() / self.precision.bytes()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.bytes.is_empty()
+    }
+
+    /// The number at `index`.
+    #[inline]
+    pub fn get(&self, index: usize) -> f64 {
+        self.precision.read(&self.bytes[index * self.precision.bytes()..])
+    }
+
+    /// All of them, in order.
+    pub fn iter(&self) -> impl Iterator<Item = f64> {
+        self.bytes.chunks_exact(self.precision.bytes()).map(|bytes| self.precision.read(bytes))
+    }
+
+    /// Their bytes.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// Their bytes, to be written to by [`Precision::write`].
+    pub fn bytes_mut(&mut self) -> &mut [u8] {
+        &mut self.bytes
+    }
+}
