@@ -36,6 +36,7 @@ pub struct Stage {
     pub error_of_b: [f64; 7],
     /// The texels for which it was asked.
     pub texels: usize,
-    /// The texels that it decided.
-    pub decided: usize,
+    /// The texels that it decided; none where values are stored within their error, and there is nothing to decide.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decided: Option<usize>,
 }

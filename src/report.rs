@@ -115,7 +115,8 @@ impl fmt::Display for Worth {
             Worth::Certified { certificate, stages } => {
                 writeln!(f, "certified {}", certificate.promise)?;
                 for Stage { by, error_of_a, texels, decided, .. } in stages {
-                    writeln!(f, "          {decided} of {texels} texels by {by}, within {error_of_a:.1e}")?;
+                    let share = decided.map_or(String::new(), |decided| format!("{decided} of "));
+                    writeln!(f, "          {share}{texels} texels by {by}, within {error_of_a:.1e}")?;
                 }
                 if let Some(distance) = certificate.smallest_distance {
                     writeln!(f, "          the nearest is {distance:.1e} from a boundary of rounding")?;

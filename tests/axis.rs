@@ -59,6 +59,15 @@ fn words_read_back_to_the_same_axis() {
 }
 
 #[test]
+fn a_texel_is_clamped_where_the_min_raises_it_and_not_where_it_is_the_min() {
+    // Texels at 0, 1/4, …, 1.
+    for (words, clamped) in [("nov,edges,min=0.25", 1), ("nov,edges,min=0.2501", 2), ("nov,edges", 0)] {
+        assert_eq!(axis(words, 5).clamped(), clamped, "{words}");
+        assert_eq!(axis(&words.replace("edges", "edges,flip"), 5).clamped(), clamped, "{words}");
+    }
+}
+
+#[test]
 fn wrong_words_sizes_and_values_are_refused() {
     for words in
         ["", "mu", "nov,cubic", "nov,offset", "nov,offset=x", "nov,offset=nan", "nov,offset=3", "nov,min=2", "nov,,"]

@@ -1,4 +1,4 @@
-//! Diffuse lobes: published figures, and the closed forms against the integral of each lobe as its paper writes it.
+//! Diffuse lobes: reference figures, and the closed forms against the integral of each lobe as its paper writes it.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;
@@ -9,7 +9,7 @@ use splitsum::quadrature::gauss_legendre::gauss_legendre;
 use std::f64::consts::PI;
 
 #[test]
-fn albedos_are_the_published_ones() {
+fn albedos_are_those_of_the_figures() {
     let rows = figures(include_str!("figures/diffuse_albedo.csv"));
     assert_eq!(rows.len(), 76);
     for row in rows {

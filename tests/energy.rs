@@ -104,7 +104,7 @@ fn closed_forms_of_blinn_phong_and_charlie_hold() {
 }
 
 #[test]
-fn average_albedos_are_the_published_ones() {
+fn average_albedos_are_those_of_the_figures() {
     // E_avg = 2 ∫ E μ dμ by double exponential quadrature, in two pieces where E is not smooth.
     let integrator = REFERENCE.integrator();
     let nodes = tanh_sinh(72);
@@ -124,8 +124,8 @@ fn average_albedos_are_the_published_ones() {
     });
     // And the closed form at α = 1: (4/3)(1 - ln 2).
     let rough_ggx = |row: &Vec<&str>| row[0] == "ggx" && row[1] == "height-correlated" && row[2] == "1";
-    let published = figures(AVERAGE).into_iter().find(rough_ggx).unwrap();
-    assert!((number(published[4]) - 4.0 / 3.0 * (1.0 - LN_2)).abs() < 1e-15);
+    let figure = figures(AVERAGE).into_iter().find(rough_ggx).unwrap();
+    assert!((number(figure[4]) - 4.0 / 3.0 * (1.0 - LN_2)).abs() < 1e-15);
 }
 
 #[test]

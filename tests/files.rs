@@ -7,6 +7,7 @@ use common::ggx;
 use exr::meta::attribute::AttributeValue;
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, Text, read};
 use splitsum::backend::Backend;
+use splitsum::encode::metadata::metadata;
 use splitsum::encode::{Format, encode};
 use splitsum::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
 use splitsum::model::Masking;
@@ -98,6 +99,23 @@ fn a_table_that_is_not_certified_says_so_and_what_is_known_instead() {
     assert!(known["error_bound"].as_f64().unwrap() <= Precision::F16.default_tolerance());
     assert!(known["measured_error"][0].as_f64().unwrap() <= known["error_bound"].as_f64().unwrap());
     assert!(metadata["command"].as_str().unwrap().contains("--certify off"));
+}
+
+#[test]
+fn metadata_tell_what_rounding_may_cost() {
+    // Half a step of each storage, where values are between 1/2 and 1.
+    for (precision, format, half_step) in [
+        (Precision::F16, Format::Exr, 2f64.powi(-12)),
+        (Precision::F32, Format::Exr, 2f64.powi(-25)),
+        (Precision::Unorm16, Format::Png, 0.5 / 65535.0),
+        (Precision::Unorm8, Format::Png, 0.5 / 255.0),
+    ] {
+        let table = table(DfgChannels::Ab, precision);
+        assert_eq!(table.values.precision(), precision);
+        let metadata: serde_json::Value = serde_json::from_str(&metadata(&table).unwrap()).unwrap();
+        assert_eq!(metadata["rounding_error"].as_f64().unwrap(), half_step, "{precision:?}");
+        assert!(encode(&[table], format).is_ok());
+    }
 }
 
 #[test]

@@ -77,7 +77,7 @@ impl Stages {
 pub(super) type ErrorsAt<'a> = dyn Fn(f64, ScaleBias) -> ScaleBias + Sync + 'a;
 
 /// What a stage did, in numbers for the report.
-pub(super) fn summary(by: String, errors_at: &ErrorsAt, texels: usize, decided: usize) -> Stage {
+pub(super) fn summary(by: String, errors_at: &ErrorsAt, texels: usize, decided: Option<usize>) -> Stage {
     // At α = 1, above the roughness below which Charlie's bounds are others.
     let errors = |b: f64| errors_at(1.0, ScaleBias { a: 0.0, b });
     let decades = [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];

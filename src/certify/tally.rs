@@ -42,7 +42,7 @@ impl Tally {
             match self.stages.get_mut(i) {
                 Some(own) => {
                     own.texels += stage.texels;
-                    own.decided += stage.decided;
+                    own.decided = own.decided.zip(stage.decided).map(|(a, b)| a + b);
                 }
                 None => self.stages.push(stage),
             }

@@ -227,7 +227,7 @@ impl Run<'_> {
             rounds_correctly: self.stages.rounds_correctly,
         };
         let decided = self.decide(&texels, points, &decider);
-        self.tally.stages.push(summary(format!("{name}, {}", rule.name), &errors_at, self.open.len(), decided));
+        self.report(format!("{name}, {}", rule.name), &errors_at, self.open.len(), decided);
         Ok(())
     }
 
@@ -267,9 +267,15 @@ impl Run<'_> {
             };
             self.tally.smallest_distance = integrals.iter().enumerate().filter_map(distance).min_by(f64::total_cmp);
         }
-        self.tally.stages.push(summary(format!("CPU f64, {}", baker.rule.name), &errors_at, asked, decided));
+        self.report(format!("CPU f64, {}", baker.rule.name), &errors_at, asked, decided);
         self.seen = Some(Seen { rule: baker.rule, texels, integrals });
         Ok(())
+    }
+
+    /// Takes note of what a stage did.
+    fn report(&mut self, by: String, errors_at: &ErrorsAt, texels: usize, decided: usize) {
+        let decided = self.stages.rounds_correctly.then_some(decided);
+        self.tally.stages.push(summary(by, errors_at, texels, decided));
     }
 
     /// The texels that are not decided, and a few that are.

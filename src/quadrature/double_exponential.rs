@@ -16,9 +16,9 @@ pub struct DeNode {
 }
 
 /// The rule with `n` nodes: the trapezoid rule in s of u = 1/(1 + exp(-π sinh s)), cut where the distance to an end
-/// falls below 1e-300.
+/// falls to 3.4e-22.
 pub fn tanh_sinh(n: usize) -> Vec<DeNode> {
-    // exp(-π sinh s) = 1e-300 at s = 6.086; the integrands here are bounded, so that cut leaves out 1e-300.
+    // exp(-π sinh s) = 3.4e-22 at s = 3.45: of bounded integrands the cut leaves out no more, less than f64 rounds.
     let limit = 3.45;
     let step = 2.0 * limit / (n as f64 - 1.0);
     (0..n)

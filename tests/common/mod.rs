@@ -1,4 +1,4 @@
-//! What several test binaries need: lobes, published figures, points of the domain.
+//! What several test binaries need: lobes, reference figures, points of the domain.
 #![allow(dead_code, reason = "each test binary uses a part of this")]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
