@@ -28,6 +28,8 @@ pub fn trials() -> Vec<Trial> {
         spoiled("an error of 2e-6 everywhere", |table| table.iter_mut().for_each(|value| value.b += 2e-6)),
         Trial::test("a table beyond its bound fails the measurement", a_table_beyond_its_bound_fails),
         a_driver_that_computes_nothing(),
+        a_broken_manifest("driver", &["bake", "--backend", "vulkan"]),
+        a_broken_manifest("layer", &["bake", "--backend", "vulkan", "--validate"]),
     ];
     trials.extend(FAULTS.map(faulty_driver));
     trials
@@ -88,6 +90,36 @@ fn a_driver_that_computes_nothing() -> Trial {
     })
 }
 
+/// The loader calls a manifest that it cannot read a want of memory.
+fn a_broken_manifest(kind: &'static str, arguments: &'static [&str]) -> Trial {
+    let name = format!("a broken manifest of a {kind} is no device, and is named as what it is");
+    if !LOADERS.iter().any(|path| Path::new(path).exists()) {
+        return missing(name, "there is no Vulkan loader where Linux has it".into());
+    }
+    Trial::test(name, move || {
+        let folder = tempfile::tempdir()?;
+        let layers = folder.path().join("vulkan/explicit_layer.d");
+        std::fs::create_dir_all(&layers)?;
+        let mut command = Command::new(env!("CARGO_BIN_EXE_splitsum"));
+        if kind == "layer" {
+            std::fs::write(layers.join("broken.json"), "{")?;
+            command.env("XDG_DATA_HOME", folder.path());
+        } else {
+            std::fs::write(folder.path().join("broken.json"), "{")?;
+            command.env("VK_DRIVER_FILES", folder.path().join("broken.json"));
+        }
+        let output = command.current_dir(&folder).args(arguments).args(["--size", "2", "-o", "a.exr"]).output()?;
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(ExitCode::NoDevice as i32), "{text}");
+        assert!(text.contains("manifest") && text.contains("VK_DRIVER_FILES"), "{text}");
+        assert!(!folder.path().join("a.exr").exists());
+        Ok(())
+    })
+}
+
+const LOADERS: [&str; 3] =
+    ["/usr/lib/x86_64-linux-gnu/libvulkan.so.1", "/usr/lib64/libvulkan.so.1", "/usr/lib/libvulkan.so.1"];
+
 /// A call that fails, and the exit code that it has to end in; `-4` is VK_ERROR_DEVICE_LOST, `-1`, `-2` out of memory,
 /// `-3` VK_ERROR_INITIALIZATION_FAILED, `-5` VK_ERROR_MEMORY_MAP_FAILED, `2` VK_TIMEOUT.
 const FAULTS: [(&str, ExitCode); 21] = [
@@ -122,8 +154,7 @@ fn faulty_driver((fault, code): (&'static str, ExitCode)) -> Trial {
     if !shim.exists() {
         return missing(name, format!("{} is not built: run the whole of cargo test", shim.display()));
     }
-    let loaders = ["/usr/lib/x86_64-linux-gnu/libvulkan.so.1", "/usr/lib64/libvulkan.so.1", "/usr/lib/libvulkan.so.1"];
-    let Some(loader) = loaders.into_iter().find(|path| Path::new(path).exists()) else {
+    let Some(loader) = LOADERS.into_iter().find(|path| Path::new(path).exists()) else {
         return missing(name, "there is no Vulkan loader where Linux has it".into());
     };
     if let Err(error) = Gpu::open(&GpuOptions { validate: true, ..GpuOptions::default() }) {

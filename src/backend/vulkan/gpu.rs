@@ -1,7 +1,6 @@
 //! The instance and the device, each freed when dropped; and the validation layers' messages, where they are on.
 
 use super::devices::{DeviceInfo, choose};
-use super::failed;
 use crate::error::{Complaint, Error, Result};
 use ash::{ext, vk};
 use std::ffi::{CStr, c_void};
@@ -44,16 +43,12 @@ pub struct Gpu {
 
 impl Instance {
     pub(super) fn new(validate: bool) -> Result<Self> {
-        let none = |got: String| {
-            let cure = "install a Vulkan loader and driver, or use --backend cpu";
-            Error::NoDevice(Complaint::new("Vulkan", "a loader with a driver", got, cure))
-        };
         // SAFETY: the loader's initialisers are trusted, as they are by every Vulkan program.
-        let entry = unsafe { ash::Entry::load() }.map_err(|error| none(error.to_string()))?;
+        let entry = unsafe { ash::Entry::load() }.map_err(|error| no_driver(error.to_string()))?;
         // SAFETY: `entry` is alive, here and below.
-        let version = unsafe { entry.try_enumerate_instance_version() }.map_err(|r| none(format!("{r:?}")))?;
+        let version = unsafe { entry.try_enumerate_instance_version() }.map_err(refused)?;
         if version.is_none_or(|version| version < vk::API_VERSION_1_1) {
-            return Err(none("a loader of Vulkan 1.0".into()));
+            return Err(no_driver("a loader of Vulkan 1.0".into()));
         }
         let (layers, extensions) = if validate {
             require_validation_layer(&entry)?;
@@ -74,22 +69,39 @@ impl Instance {
             create = create.push_next(&mut features).push_next(&mut messenger);
         }
         // SAFETY: everything `create` points to lives to the end of this function; the messages live as long as the instance.
-        let raw = unsafe { entry.create_instance(&create, None) }.map_err(|result| none(format!("{result:?}")))?;
+        let raw = unsafe { entry.create_instance(&create, None) }.map_err(refused)?;
         let mut instance = Instance { raw, debug: None, messages, _entry: entry };
         if validate {
             let debug = ext::debug_utils::Instance::new(&instance._entry, &instance.raw);
             // SAFETY: as above.
             let messenger = unsafe { debug.create_debug_utils_messenger(&messenger_info(&instance.messages), None) }
-                .map_err(failed("creating the debug messenger"))?;
+                .map_err(refused)?;
             instance.debug = Some((debug, messenger));
         }
         Ok(instance)
     }
 }
 
+fn no_driver(got: String) -> Error {
+    let cure = "install a Vulkan loader and driver, or use --backend cpu";
+    Error::NoDevice(Complaint::new("Vulkan", "a loader with a driver", got, cure))
+}
+
+/// What the loader refuses before any device is reached.
+fn refused(result: vk::Result) -> Error {
+    if result != vk::Result::ERROR_OUT_OF_HOST_MEMORY {
+        return no_driver(format!("{result:?}"));
+    }
+    // So the loader calls a manifest that is no JSON; memory itself has not been seen to run out there.
+    let got = "ERROR_OUT_OF_HOST_MEMORY, which is what the loader makes of a broken one";
+    let cure =
+        "mend the file that VK_LOADER_DEBUG=all names, name sound drivers in VK_DRIVER_FILES, or use --backend cpu";
+    Error::NoDevice(Complaint::new("Vulkan", "sound JSON manifests of drivers and layers", got, cure))
+}
+
 fn require_validation_layer(entry: &ash::Entry) -> Result<()> {
     // SAFETY: `entry` is alive.
-    let layers = unsafe { entry.enumerate_instance_layer_properties() }.map_err(failed("listing the layers"))?;
+    let layers = unsafe { entry.enumerate_instance_layer_properties() }.map_err(refused)?;
     let present = layers.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION));
     if present {
         return Ok(());
