@@ -7,14 +7,20 @@ mod config;
 mod depfile;
 mod devices;
 mod furnace;
+mod message;
 mod output;
+mod place;
 mod preview;
 mod progress;
+mod standard_output;
 mod table_args;
+mod temporary;
+mod watched;
 
 use crate::error::{Complaint, Error, ExitCode, Result};
 use crate::model::{Diffuse, Ndf};
 use crate::units::word;
+use clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
 use std::io::Write;
@@ -60,10 +66,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     });
     let cli = match command.try_get_matches_from(arguments).and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
-        Err(error) => {
-            let _ = error.print();
-            return if error.use_stderr() { ExitCode::Usage as u8 } else { ExitCode::Success as u8 };
-        }
+        Err(error) => return refuse(&error),
     };
     let outcome = match cli.command {
         Command::Bake(arguments) => bake::run(*arguments),
@@ -75,10 +78,27 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     match outcome {
         Ok(()) => ExitCode::Success as u8,
         Err(error) => {
-            let _ = writeln!(std::io::stderr(), "splitsum: {error}");
+            let _ = writeln!(std::io::stderr(), "splitsum: {}", message::shorten(&error.to_string()));
             error.exit_code() as u8
         }
     }
+}
+
+/// Prints what the parser has to say: the help that was asked for, or why it cannot go on.
+fn refuse(error: &clap::Error) -> u8 {
+    if !error.use_stderr() {
+        let _ = error.print();
+        return ExitCode::Success as u8;
+    }
+    // The help that stands for a missing command is long, and meant to be.
+    let (text, quoting) = (error.to_string(), error.kind() != DisplayHelpOnMissingArgumentOrSubcommand);
+    let short = message::shorten(&text);
+    let _ = if quoting && short.len() < text.trim_end().len() {
+        writeln!(std::io::stderr(), "{short}")
+    } else {
+        error.print()
+    };
+    ExitCode::Usage as u8
 }
 
 /// Prints to standard output; a closed pipe is an error like any other.
@@ -90,6 +110,7 @@ fn print(text: &str) -> Result<()> {
 
 /// Prints as JSON.
 fn print_json(value: &impl serde::Serialize) -> Result<()> {
+    standard_output::check()?;
     print(&serde_json::to_string_pretty(value).map_err(|error| Error::Internal(error.to_string()))?)
 }
 

@@ -1,7 +1,9 @@
 //! `splitsum bake`
 
+mod names;
+
 use super::table_args::{Job, TableArgs};
-use super::{config, depfile, output, progress::Progress, usage};
+use super::{config, depfile, output, progress::Progress, standard_output, usage};
 use crate::backend::vulkan::gpu::GpuOptions;
 use crate::backend::{Backend, BackendChoice};
 use crate::encode::{encode, metadata::TOOL};
@@ -96,10 +98,14 @@ pub fn run(arguments: BakeArgs) -> Result<()> {
         ));
     }
     let depfile = dependency_file(&arguments, &jobs)?;
+    names::check(&arguments, &jobs, depfile.as_deref())?;
     set_threads(arguments.threads)?;
     let backend = open(&arguments)?;
     for name in jobs.iter().map(|job| &job.output).chain(&depfile) {
         output::check(name)?;
+    }
+    if arguments.json {
+        standard_output::check()?;
     }
     let tables: Vec<Vec<Baked>> = jobs.iter().map(|job| bake(job, &backend, &arguments)).collect::<Result<_>>()?;
     if let Some(depfile) = depfile {

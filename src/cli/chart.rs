@@ -4,9 +4,9 @@ mod speed;
 mod stability;
 mod table;
 
-use super::output;
 use super::progress::Progress;
 use super::table_args::{DEFAULT_OUTPUT, TableArgs};
+use super::{output, place, usage};
 use crate::backend::vulkan::devices::{DeviceInfo, list_devices};
 use crate::backend::vulkan::gpu::{Gpu, GpuOptions};
 use crate::draw::Drawing;
@@ -83,7 +83,19 @@ impl StudyArgs {
             let failed = output::failed("create the folder", folder, "choose another with -o");
             fs::create_dir_all(folder).map_err(failed)?;
         }
-        files.iter().try_for_each(|file| output::check(&format!("{folder}/{}", file.as_ref())))?;
+        let paths = files.iter().map(|file| format!("{folder}/{}", file.as_ref()));
+        let mut written = place::Files::default();
+        if let Some(file) = &self.from {
+            written.add("the file of measurements", file);
+        }
+        // What is read from a file is not saved again.
+        for path in paths.filter(|path| self.from.is_none() || !path.ends_with(".json")) {
+            output::check(&path)?;
+            if let Some(other) = written.add(path.as_str(), &path) {
+                let got = format!("{path}, which is {other}");
+                return Err(usage("output", "a file of its own for each chart", &got, "choose another folder with -o"));
+            }
+        }
         Ok(folder.into())
     }
 

@@ -4,7 +4,6 @@ use super::output;
 use super::table_args::{Job, TableArgs};
 use crate::error::{Error, Result};
 use serde::Deserialize;
-use std::collections::HashSet;
 use std::path::Path;
 
 /// A configuration larger than this is a mistake.
@@ -35,7 +34,6 @@ pub fn read(path: &str) -> Result<Vec<Job>> {
         return Err(wrong("at least one [[table]]", "none".into(), "add one"));
     }
     let folder = Path::new(path).parent().unwrap_or(Path::new(""));
-    let mut outputs = HashSet::new();
     let mut jobs = Vec::new();
     for (index, table) in config.table.into_iter().enumerate() {
         let name = format!("{path}, table {}", index + 1);
@@ -43,9 +41,6 @@ pub fn read(path: &str) -> Result<Vec<Job>> {
         match &table.output {
             Some(output) if output != "-" => job.output = folder.join(output).to_string_lossy().into_owned(),
             _ => return Err(Error::bad_input(name, "an output file", "none", "add output = \"FILE\"")),
-        }
-        if !outputs.insert(job.output.clone()) {
-            return Err(Error::bad_input(name, "an output of its own", job.output, "rename one of the two"));
         }
         jobs.push(job);
     }

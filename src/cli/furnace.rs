@@ -1,7 +1,7 @@
 //! `splitsum furnace`
 
-use super::output;
 use super::table_args::{choice, lobe};
+use super::{output, standard_output};
 use crate::axis::{Axis, AxisSpec, Parameter};
 use crate::encode::metadata::TOOL;
 use crate::error::{Error, Result};
@@ -77,6 +77,9 @@ pub fn run(arguments: &FurnaceArgs) -> Result<()> {
     };
     if let Some(name) = &arguments.output {
         output::check_picture(name)?;
+    }
+    if arguments.json {
+        standard_output::check()?;
     }
     // The reciprocal split is a lobe of its own, in the place of Lambert's.
     let splits = if material.base == Diffuse::Lambert { &Split::ALL[..] } else { &Split::ALL[..2] };

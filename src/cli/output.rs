@@ -1,44 +1,84 @@
 //! Writing files so that there is always either the old file or the whole new one.
 
+use super::place::resolve;
+use super::temporary::Temporary;
+use super::watched::{WriteSeek, fill_file};
 use crate::encode::png::encode_rgb;
 use crate::error::{Complaint, Error, Result};
 use crate::report::map::Picture;
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, IsTerminal, Write};
+use std::fs::{self, File, Metadata, OpenOptions};
+use std::io::{self, IsTerminal, Seek, SeekFrom, Write};
 use std::path::Path;
+
+/// What goes to standard output, a device or a pipe, which cannot seek, waits in memory up to this size, then on the disk.
+const SPOOLED: usize = 1 << 24;
+
+/// What may help where a file cannot be written.
+const CURE: &str = "make room or choose another place with -o";
 
 /// Whether `name` can be written: asked before any work is done.
 pub fn check(name: &str) -> Result<()> {
     if name == "-" {
-        return if io::stdout().is_terminal() {
+        if io::stdout().is_terminal() {
             let cure = "redirect it, or name a file with -o";
-            Err(Error::Usage(Complaint::new("output", "a file or a pipe for binary data", "a terminal", cure)))
-        } else {
-            Ok(())
-        };
+            return Err(Error::Usage(Complaint::new("output", "a file or a pipe for binary data", "a terminal", cure)));
+        }
+        return super::standard_output::check();
     }
     let path = Path::new(name);
     if path.is_dir() || name.ends_with(std::path::is_separator) {
         return Err(failed("write", name, "name a file")(io::Error::from(io::ErrorKind::IsADirectory)));
     }
-    let folder = folder_of(path);
     if name == super::table_args::DEFAULT_OUTPUT {
-        fs::create_dir_all(folder).map_err(failed("create the folder of", name, "choose another place with -o"))?;
+        let failed = failed("create the folder of", name, "choose another place with -o");
+        fs::create_dir_all(folder_of(path)).map_err(failed)?;
     }
-    fs::metadata(folder).map(drop).map_err(failed("find the folder of", name, "create it first"))
+    let target = resolve(path);
+    let folder = folder_of(&target);
+    fs::metadata(folder).map_err(failed("find the folder of", name, "create it first"))?;
+    let existing = fs::metadata(path).ok();
+    if existing.is_some() {
+        access(path).map_err(failed("write", name, "make it writable, or choose another place with -o"))?;
+    }
+    if existing.is_none_or(|existing| existing.is_file()) {
+        access(folder).map_err(failed("write to the folder of", name, "choose another place with -o"))?;
+    }
+    Ok(())
+}
+
+/// Whether we may write to what is there.
+#[cfg(unix)]
+fn access(path: &Path) -> io::Result<()> {
+    use rustix::fs::{Access, AtFlags, CWD, accessat};
+    Ok(accessat(CWD, path, Access::WRITE_OK, AtFlags::EACCESS)?)
+}
+
+#[cfg(not(unix))]
+fn access(_: &Path) -> io::Result<()> {
+    Ok(())
 }
 
 /// Writes a file, or standard output if its name is `-`.
 pub fn write(name: &str, bytes: &[u8]) -> Result<()> {
-    if name == "-" {
-        let mut out = io::stdout().lock();
-        return out.write_all(bytes).and_then(|()| out.flush()).map_err(failed(
-            "write to",
-            "standard output",
-            "check what reads it",
-        ));
+    write_with(name, &mut |out| out.write_all(bytes).map_err(failed("write", name, CURE)))
+}
+
+/// Writes what `fill` writes to a file, or to standard output if its name is `-`; a file is never held in memory.
+pub fn write_with(name: &str, fill: &mut dyn FnMut(&mut dyn WriteSeek) -> Result<()>) -> Result<()> {
+    let path = Path::new(name);
+    let existing = fs::metadata(path).ok();
+    if name != "-" && existing.as_ref().is_none_or(Metadata::is_file) {
+        // A link stays a link: what it points to is replaced.
+        return replace(&resolve(path), existing.as_ref(), name, fill);
     }
-    write_file(Path::new(name), bytes).map_err(failed("write", name, "make room or choose another place with -o"))
+    let mut spool = tempfile::spooled_tempfile(SPOOLED);
+    fill_file(&mut spool, fill, failed("write", name, CURE))?;
+    let failed = if name == "-" {
+        failed("write to", "standard output", "check what reads it")
+    } else {
+        failed("write", name, CURE)
+    };
+    copy(&mut spool, name).map_err(failed)
 }
 
 /// Whether `name` can be written and is that of a picture.
@@ -54,31 +94,45 @@ pub fn write_picture(name: &str, picture: &Picture) -> Result<()> {
     write(name, &encode_rgb(picture.width, picture.height, &picture.rgb)?)
 }
 
-/// A temporary file beside the target, synced, renamed over it, the folder synced; a device or pipe is written directly.
-fn write_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let existing = fs::metadata(path).ok();
-    if existing.as_ref().is_some_and(|existing| !existing.is_file()) {
-        let mut file = OpenOptions::new().write(true).open(path)?;
-        return file.write_all(bytes).and_then(|()| file.flush());
-    }
-    // A link stays a link: what it points to is replaced.
-    let target = if existing.is_some() { fs::canonicalize(path)? } else { path.to_owned() };
-    let folder = folder_of(&target);
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".splitsum-").suffix(".tmp");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder)?;
+/// A temporary file beside the target, renamed over it; permissions are kept, and owners where the system lets us.
+fn replace(
+    target: &Path,
+    existing: Option<&Metadata>,
+    name: &str,
+    fill: &mut dyn FnMut(&mut dyn WriteSeek) -> Result<()>,
+) -> Result<()> {
+    let failed = failed("write", name, CURE);
+    let temporary = Temporary::new(folder_of(target)).map_err(&failed)?;
     if let Some(existing) = existing {
-        file.as_file().set_permissions(existing.permissions())?;
+        keep_owner(temporary.file(), existing).map_err(&failed)?;
+        temporary.file().set_permissions(existing.permissions()).map_err(&failed)?;
     }
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(&target).map_err(|error| error.error)?;
-    if cfg!(unix) {
-        File::open(folder)?.sync_all()?;
+    fill_file(temporary.file(), fill, &failed)?;
+    temporary.persist(target).map_err(failed)
+}
+
+/// Gives a file the owner and the group of the one that it replaces, or the group alone; only root can do the former.
+#[cfg(unix)]
+fn keep_owner(file: &File, existing: &Metadata) -> io::Result<()> {
+    use std::os::unix::fs::{MetadataExt, fchown};
+    let (new, user, group) = (file.metadata()?, existing.uid(), existing.gid());
+    if (new.uid(), new.gid()) != (user, group) {
+        let _ = fchown(file, Some(user), Some(group)).or_else(|_| fchown(file, None, Some(group)));
     }
     Ok(())
+}
+
+#[cfg(not(unix))]
+fn keep_owner(_: &File, _: &Metadata) -> io::Result<()> {
+    Ok(())
+}
+
+fn copy(spool: &mut (impl io::Read + Seek), name: &str) -> io::Result<()> {
+    spool.seek(SeekFrom::Start(0))?;
+    let mut out: Box<dyn Write> =
+        if name == "-" { Box::new(io::stdout().lock()) } else { Box::new(OpenOptions::new().write(true).open(name)?) };
+    io::copy(spool, &mut out)?;
+    out.flush()
 }
 
 fn folder_of(path: &Path) -> &Path {

@@ -1,0 +1,86 @@
+//! Which names mean the same file, through links, hard links and `..`: what a command reads and writes is
+//! compared before any work is done.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// More links than this lead in a circle.
+const LINKS: usize = 40;
+
+/// The files of a command so far, each with what it is to the command.
+#[derive(Default)]
+pub struct Files(Vec<(String, Place)>);
+
+/// Where a file is, or will be.
+#[derive(PartialEq, Eq)]
+struct Place {
+    path: PathBuf,
+    /// Device and inode of what is there.
+    id: Option<(u64, u64)>,
+}
+
+impl Files {
+    /// Takes note of a file; what comes back is what the same file already was. Standard output, devices and pipes are
+    /// theirs who write to them: they can be named as often as one likes.
+    pub fn add(&mut self, what: impl Into<String>, name: &str) -> Option<&str> {
+        let place = Place::of(name)?;
+        match self.0.iter().position(|(_, other)| other.is(&place)) {
+            Some(index) => Some(&self.0[index].0),
+            None => {
+                self.0.push((what.into(), place));
+                None
+            }
+        }
+    }
+}
+
+impl Place {
+    fn of(name: &str) -> Option<Self> {
+        let existing = fs::metadata(name).ok();
+        if name == "-" || existing.as_ref().is_some_and(|existing| !existing.is_file()) {
+            return None;
+        }
+        Some(Place { path: canonical(&resolve(Path::new(name))), id: existing.as_ref().and_then(id) })
+    }
+
+    fn is(&self, other: &Place) -> bool {
+        self.path == other.path || self.id.is_some() && self.id == other.id
+    }
+}
+
+/// What a path leads to when links are followed, also where nothing is there yet.
+pub fn resolve(path: &Path) -> PathBuf {
+    // Not all that exists has a path: a link to a pipe leads to none.
+    if path.exists() {
+        return fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    }
+    let mut path = path.to_owned();
+    for _ in 0..LINKS {
+        let Ok(link) = fs::read_link(&path) else { break };
+        path = path.parent().unwrap_or(Path::new("")).join(link);
+    }
+    path
+}
+
+/// The one spelling of a path; folders that do not exist are taken as they are written.
+fn canonical(path: &Path) -> PathBuf {
+    if let Ok(path) = fs::canonicalize(path) {
+        return path;
+    }
+    match (path.parent(), path.file_name()) {
+        (Some(folder), Some(name)) if folder.as_os_str().is_empty() => canonical(Path::new(".")).join(name),
+        (Some(folder), Some(name)) => canonical(folder).join(name),
+        _ => path.to_owned(),
+    }
+}
+
+#[cfg(unix)]
+fn id(metadata: &fs::Metadata) -> Option<(u64, u64)> {
+    use std::os::unix::fs::MetadataExt;
+    Some((metadata.dev(), metadata.ino()))
+}
+
+#[cfg(not(unix))]
+fn id(_: &fs::Metadata) -> Option<(u64, u64)> {
+    None
+}
