@@ -111,8 +111,7 @@ pub fn run(arguments: BakeArgs) -> Result<()> {
     if let Some(depfile) = depfile {
         let outputs: Vec<&str> = jobs.iter().map(|job| job.output.as_str()).collect();
         let targets = arguments.mt.as_ref().map_or(outputs, |target| vec![target]);
-        let dependencies: Vec<&str> = arguments.config.iter().map(String::as_str).collect();
-        output::write(&depfile, depfile::rule(&targets, &dependencies).as_bytes())?;
+        output::write(&depfile, depfile::rule(&targets, arguments.config.as_deref()).as_bytes())?;
     }
     if arguments.json {
         return super::print_json(&Run { tool: TOOL, tables: tables.into_iter().flatten().collect() });
