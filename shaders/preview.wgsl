@@ -7,12 +7,14 @@ struct Job {
     scene: u32,
     // Texels along the edge of the table.
     table: u32,
+    // The texel at which n.v is mu: x mu + y; at which roughness is r: z r + w. From src/axis.rs.
+    texels: vec4<f32>,
     rule: Rule,
 }
 
 // For each column alpha, roughness, and the means of P1 and P2 over the prefiltering kernel.
 @group(0) @binding(1) var<storage, read> columns: array<vec4<f32>>;
-// (A, B) over n.v and roughness at texel centres.
+// (A, B) over n.v and roughness.
 @group(0) @binding(2) var<storage, read> table: array<vec2<f32>>;
 @group(0) @binding(3) var<storage, read_write> pixels: array<vec4<f32>>;
 
@@ -36,11 +38,11 @@ fn pi_d_v(x: f32, mu: f32, nh: f32, alpha: f32) -> f32 {
     return 3.14159265 * slope_density(y2, alpha) / (width * width * c2 * c2) * cosine_visibility(x, mu, alpha) / x;
 }
 
-// The table as a renderer reads it: bilinear between texel centres, clamped at the border.
+// The table as a renderer reads it: bilinear between texels, clamped at the border.
 fn lookup(mu: f32, roughness: f32) -> vec2<f32> {
     let last = f32(job.table) - 1.0;
-    let u = clamp(mu * f32(job.table) - 0.5, 0.0, last);
-    let v = clamp(roughness * f32(job.table) - 0.5, 0.0, last);
+    let u = clamp(job.texels.x * mu + job.texels.y, 0.0, last);
+    let v = clamp(job.texels.z * roughness + job.texels.w, 0.0, last);
     let i = u32(u);
     let j = u32(v);
     let i1 = min(i + 1u, job.table - 1u);

@@ -1,5 +1,6 @@
 //! What methods are worth: their errors beside their times, on the machine at hand; and where formulas fail.
 
+pub mod worst;
 pub mod lookup;
 pub mod size;
 pub mod speed;

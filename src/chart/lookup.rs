@@ -5,33 +5,33 @@ use crate::draw::axes::{Decades, draw};
 use crate::draw::{Colour, Drawing};
 use crate::precision::Precision;
 use crate::study::lookup::{AXES, Reading};
-use crate::study::{Errors, Lobe, Machine};
+use crate::study::{Lobe, Machine};
 use crate::units::word;
 
-/// Largest and mean error of a lookup against the size of the table in KiB.
+/// The largest error of a lookup over two domains and the mean error, against the size of the table in KiB.
 pub fn chart(readings: &[Reading], lobe: Lobe, machine: &Machine) -> Drawing {
     let mut drawing = Drawing::new(1000.0, 620.0);
-    let about = format!(
-        "error of A and B as a renderer reads them, bilinearly, at places spread evenly over n\u{b7}v and roughness; {lobe}"
-    );
+    let about =
+        format!("error of the albedo E(F0) that a renderer reads, bilinearly, at the F0 that shows it most; {lobe}");
     headed(&mut drawing, "What size a table needs", &about);
-    type Of = fn(&Errors) -> f64;
-    let panels: [(&str, Of); 2] = [
-        ("largest error", Errors::largest),
-        ("root of the mean square of the error", |errors| errors.rms[0].max(errors.rms[1])),
+    type Of = fn(&Reading) -> f64;
+    let panels: [(&str, Of); 3] = [
+        ("largest error anywhere", |reading| reading.everywhere),
+        ("largest, roughness from 0.045, n\u{b7}v from 0.001", |reading| reading.practical),
+        ("root of the mean square, evenly over both", |reading| reading.rms),
     ];
     let kib = |reading: &Reading| reading.bytes as f64 / 1024.0;
     for (panel, (name, of)) in panels.into_iter().enumerate() {
-        let left = 82.0 + 480.0 * panel as f64;
-        let x = Decades::around(readings.iter().map(kib), left, left + 400.0);
-        let y = Decades::around(readings.iter().map(|reading| of(&reading.errors)), 395.0, 66.0);
+        let left = 82.0 + 318.0 * panel as f64;
+        let x = Decades::around(readings.iter().map(kib), left, left + 250.0);
+        let y = Decades::around(readings.iter().map(of), 395.0, 66.0);
         draw(&mut drawing, x, y, ("KiB of the table's two channels", name));
         for (i, axes) in AXES.iter().enumerate() {
             for (precision, kind, dashed) in STORAGES {
-                let own = |r: &&Reading| (r.x.as_str(), r.y.as_str()) == *axes && r.precision == precision;
+                let own = |r: &&Reading| r.has(*axes) && r.precision == precision;
                 let mut own: Vec<&Reading> = readings.iter().filter(own).collect();
                 own.sort_by_key(|reading| reading.size);
-                let places = own.iter().map(|r| (x.place(kib(r)), y.place(of(&r.errors))));
+                let places = own.iter().map(|r| (x.place(kib(r)), y.place(of(r))));
                 drawing.line(places.clone().collect(), COLOURS[i], 1.4, dashed);
                 for (reading, place) in own.iter().zip(places) {
                     let size = reading.size;
@@ -40,7 +40,7 @@ pub fn chart(readings: &[Reading], lobe: Lobe, machine: &Machine) -> Drawing {
                         reading.x,
                         reading.y,
                         word(precision),
-                        of(&reading.errors)
+                        of(reading)
                     );
                     drawing.mark(place, kind, 3.5, COLOURS[i], label);
                 }

@@ -1,6 +1,7 @@
 //! `splitsum preview`
 
 use super::output;
+use super::progress::Progress;
 use crate::backend::vulkan::gpu::GpuOptions;
 use crate::backend::{Backend, BackendChoice};
 use crate::error::{Error, Result};
@@ -37,7 +38,9 @@ pub fn run(arguments: &PreviewArgs) -> Result<()> {
     let rows = rows(scene)?;
     let choice: BackendChoice = arguments.backend.parse()?;
     let backend = Backend::open(choice, &GpuOptions { device: arguments.device.clone(), ..GpuOptions::default() })?;
-    let picture = render(&rows, *size, &backend)?;
+    let progress = Progress::of_pixels(name, rows.len() * ROUGHNESSES.len() * size * size);
+    let picture = render(&rows, *size, &backend, &|pixels| progress.advance(pixels))?;
+    drop(progress);
     output::write_picture(name, &picture)?;
     let device = backend.device().map_or("the CPU", |gpu| &gpu.info().name);
     let lobes: Vec<String> = rows.iter().map(|row| format!("{:?} {:?}", row.lobe.ndf, row.scene)).collect();

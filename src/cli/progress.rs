@@ -25,6 +25,11 @@ impl Progress {
         Progress::with_template(name, texels, "{msg} {bar:40} {percent}% of {len} texels, {eta} left", quiet)
     }
 
+    /// For so many pixels of the picture `name`.
+    pub fn of_pixels(name: &str, pixels: usize) -> Self {
+        Progress::with_template(name, pixels, "{msg} {bar:40} {percent}% of {len} pixels, {eta} left", false)
+    }
+
     /// For work of which shares are told.
     pub fn of_work(name: &str, quiet: bool) -> Self {
         Progress::with_template(name, SHARES, "{msg} {bar:40} {percent}%, {eta} left", quiet)
@@ -39,9 +44,9 @@ impl Progress {
         Progress { bar, start: Instant::now(), shown: Once::new(), wanted: !quiet && std::io::stderr().is_terminal() }
     }
 
-    /// So many texels more.
-    pub fn advance(&self, texels: usize) {
-        self.bar.inc(texels as u64);
+    /// So many texels or pixels more.
+    pub fn advance(&self, count: usize) {
+        self.bar.inc(count as u64);
         self.show();
     }
 

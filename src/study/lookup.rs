@@ -1,24 +1,24 @@
 //! What a renderer reads from a table: how far bilinear lookup is from the integral, by size, axes and storage.
 
-use super::{Errors, Share, stored};
+use super::worst::{FULL, PRACTICAL, Search, parameter, rule, seen};
+use super::{Share, stored};
 use crate::axis::{Axis, AxisSpec};
 use crate::backend::cpu;
 use crate::error::Result;
 use crate::integrate::ScaleBias;
-use crate::integrate::rule::{REFERENCE, Rule};
 use crate::lut::{Dfg, DfgChannels, Grid, Lut};
 use crate::model::Microfacet;
 use crate::precision::Precision;
 use crate::quadrature::point_set::PointSet;
 use crate::table::Table;
-use crate::units::word;
+use crate::units::{Alpha, PerceptualRoughness, word};
 use serde::{Deserialize, Serialize};
 
-/// Places at which a renderer looks: spread evenly over n·v and perceptual roughness (the points of R2).
-pub const POINTS: usize = 4096;
+/// Places of the mean error: spread evenly over n·v and perceptual roughness (the points of R2).
+const POINTS: usize = 4096;
 
-/// Seconds of one thread that a table may take: those of dear lobes end with smaller ones.
-const PATIENCE: f64 = 4.0;
+/// Seconds of one thread that the search of a table may take: those of dear lobes end with smaller ones.
+const PATIENCE: f64 = 8.0;
 
 /// The axes of n·v and of roughness as words.
 pub type Axes = (&'static str, &'static str);
@@ -54,78 +54,136 @@ pub struct Reading {
     pub precision: Precision,
     /// Bytes of the values: two channels.
     pub bytes: usize,
-    /// How far lookups are off.
-    #[serde(flatten)]
-    pub errors: Errors,
+    /// The largest error of the albedo that a renderer computes ([`seen`]), over all n·v and roughnesses.
+    pub everywhere: f64,
+    /// The same over [`PRACTICAL`].
+    pub practical: f64,
+    /// The root of its mean square over places that are spread evenly.
+    pub rms: f64,
 }
 
-/// Places and what is true there.
-pub struct Lookup {
+/// The lookups of a lobe, and what is true at the places of their mean error.
+pub struct Lookups {
+    lobe: Microfacet,
+    /// (n·v, perceptual roughness)
     places: Vec<(f64, f64)>,
     truth: Vec<ScaleBias>,
 }
 
-impl Lookup {
-    /// So many places.
-    pub fn new(lobe: Microfacet, count: usize) -> Self {
-        let places: Vec<(f64, f64)> = (0..count).map(|i| PointSet::R2.coordinates(i, count, 0)).collect();
-        let points: Vec<(f64, f64)> = places.iter().map(|&(mu, r)| (mu, r * r)).collect();
-        let truth = cpu::bake_points(lobe, &points, &REFERENCE);
-        Lookup { places, truth }
+impl Lookups {
+    /// Those of a lobe.
+    pub fn new(lobe: Microfacet) -> Result<Self> {
+        let places: Vec<(f64, f64)> = (0..POINTS).map(|i| PointSet::R2.coordinates(i, POINTS, 0)).collect();
+        let grid = |&(mu, r): &(f64, f64)| PerceptualRoughness::new(r).map(|r| (mu, Alpha::from(r).get()));
+        let points = places.iter().map(grid).collect::<Result<Vec<_>>>()?;
+        let truth = cpu::bake_points(lobe, &points, &rule(lobe, POINTS));
+        Ok(Lookups { lobe, places, truth })
     }
 
-    /// How far a table with these values, n·v varying fastest, is off.
-    pub fn of(&self, lobe: Microfacet, axes: Axes, size: usize, values: &[ScaleBias]) -> Result<Errors> {
+    /// A table of exact values with these axes and so many texels along each, in these storages; none where the search
+    /// would take too long.
+    pub fn of(&self, axes: Axes, size: usize, precisions: &[Precision]) -> Result<Vec<Reading>> {
         let (x, y) = axes_of(axes, size)?;
-        let lut = Lut::Dfg(Dfg { lobe, channels: DfgChannels::Ab });
-        let values: Vec<f64> = values.iter().flat_map(|v| [v.a, v.b]).collect();
-        let values = Grid::new(&x, &y)?.stored(&lut, Precision::F64, &values)?;
-        let table = Table { x, y, channels: lut.channels().to_vec(), values, provenance: lut.provenance() };
-        let parameter = |r: f64| if axes.1.starts_with("alpha") { r * r } else { r };
-        let read = |&(mu, r): &(f64, f64)| {
-            let texel = table.bilinear(mu, parameter(r));
-            ScaleBias { a: texel[0], b: texel[1] }
+        let Some(search) = Search::new(self.lobe, &x, &y, PATIENCE)? else { return Ok(Vec::new()) };
+        let grid = Grid::new(&x, &y)?;
+        let exact = cpu::bake(self.lobe, &grid, &rule(self.lobe, grid.len()), &|_| ());
+        let reading = |&precision: &Precision| {
+            let table = table_of(self.lobe, (x, y), &stored(&exact, precision))?;
+            let read = |mu: f64, row: f64| read(&table, mu, row);
+            Ok(Reading {
+                x: axes.0.into(),
+                y: axes.1.into(),
+                size,
+                precision,
+                bytes: 2 * precision.bytes() * size * size,
+                everywhere: search.largest(FULL, &read)?,
+                practical: search.largest(PRACTICAL, &read)?,
+                rms: self.rms(&table)?,
+            })
         };
-        Ok(Errors::between(self.places.iter().map(read).zip(self.truth.iter().copied())))
+        precisions.iter().map(reading).collect()
     }
+
+    fn rms(&self, table: &Table) -> Result<f64> {
+        let mut squares = 0.0;
+        for (&(mu, roughness), &truth) in self.places.iter().zip(&self.truth) {
+            let error = seen(read(table, mu, parameter(&table.y, roughness)?), truth);
+            squares += error * error;
+        }
+        Ok((squares / POINTS as f64).sqrt())
+    }
+}
+
+/// The table with these values, n·v varying fastest.
+fn table_of(lobe: Microfacet, (x, y): (Axis, Axis), values: &[ScaleBias]) -> Result<Table> {
+    let lut = Lut::Dfg(Dfg { lobe, channels: DfgChannels::Ab });
+    let values: Vec<f64> = values.iter().flat_map(|v| [v.a, v.b]).collect();
+    let values = Grid::new(&x, &y)?.stored(&lut, Precision::F64, &values)?;
+    Ok(Table { x, y, channels: lut.channels().to_vec(), values, provenance: lut.provenance() })
+}
+
+/// What a renderer reads at n·v = `mu` in row `row`.
+fn read(table: &Table, mu: f64, row: f64) -> ScaleBias {
+    let texel = table.bilinear(mu, row);
+    ScaleBias { a: texel[0], b: texel[1] }
+}
+
+/// The largest error over [`PRACTICAL`] of lookups in a table with these values; none where the search would take too
+/// long.
+pub fn practical(lobe: Microfacet, axes: Axes, size: usize, values: &[ScaleBias]) -> Result<Option<f64>> {
+    let (x, y) = axes_of(axes, size)?;
+    let Some(search) = Search::new(lobe, &x, &y, PATIENCE)? else { return Ok(None) };
+    let table = table_of(lobe, (x, y), values)?;
+    search.largest(PRACTICAL, &|mu, row| read(&table, mu, row)).map(Some)
 }
 
 /// Every size up to `largest`, with all axes and storages.
 pub fn measure(lobe: Microfacet, largest: usize, share: Share) -> Result<Vec<Reading>> {
-    let lookup = Lookup::new(lobe, POINTS);
+    let lookups = Lookups::new(lobe)?;
     let mut readings = Vec::new();
     for (done, axes) in AXES.into_iter().enumerate() {
         for size in std::iter::successors(Some(8), |size| Some(2 * size)).take_while(|&size| size <= largest) {
-            let (x, y) = axes_of(axes, size)?;
-            let grid = Grid::new(&x, &y)?;
-            // Exact beside what lookups are off.
-            let rule = Rule::for_cpu(lobe, 3e-6, grid.len()).unwrap_or(REFERENCE);
-            if rule.seconds(lobe, grid.len()) > PATIENCE {
-                break;
-            }
-            let exact = cpu::bake(lobe, &grid, &rule, &|_| ());
-            for precision in [Precision::F32, Precision::F16, Precision::Unorm16, Precision::Unorm8] {
-                let errors = lookup.of(lobe, axes, size, &stored(&exact, precision))?;
-                let bytes = 2 * precision.bytes() * size * size;
-                readings.push(Reading { x: axes.0.into(), y: axes.1.into(), size, precision, bytes, errors });
-            }
+            let storages = [Precision::F32, Precision::F16, Precision::Unorm16, Precision::Unorm8];
+            readings.extend(lookups.of(axes, size, &storages)?);
         }
         share((done + 1) as f64 / AXES.len() as f64);
     }
     Ok(readings)
 }
 
-/// The smallest table with these axes whose lookups are at most `error` off.
+/// The smallest table with these axes whose lookups are at most `error` off over [`PRACTICAL`].
 pub fn smallest(readings: &[Reading], axes: Axes, error: f64) -> Option<&Reading> {
-    let serves = |r: &&Reading| (r.x.as_str(), r.y.as_str()) == axes && r.errors.largest() <= error;
+    let serves = |r: &&Reading| r.has(axes) && r.practical <= error;
     readings.iter().filter(serves).min_by_key(|reading| reading.bytes)
+}
+
+impl Reading {
+    /// Whether the table has these axes.
+    pub fn has(&self, axes: Axes) -> bool {
+        (self.x.as_str(), self.y.as_str()) == axes
+    }
+}
+
+/// What no lookup that is continuous in n·v and roughness gets below, whatever its size: as both go to 0, E becomes a
+/// function of n·v/α alone, so that every neighbourhood of that corner holds all of its values. Half of their range
+/// stays. None where albedos exceed 1, of which errors are relative.
+pub fn corner(lobe: Microfacet) -> Option<f64> {
+    // So small that E no longer depends on it: what is left is of the order of α.
+    const ALPHA: f64 = 1e-8;
+    // From n·v/α = 1e-5 to 1e5, and the ends.
+    let ratios = (-100..=100).map(|k| libm::exp10(f64::from(k) / 20.0));
+    let points: Vec<(f64, f64)> = std::iter::once(0.0).chain(ratios).map(|ratio| (ratio * ALPHA, ALPHA)).collect();
+    let albedos: Vec<f64> =
+        cpu::bake_points(lobe, &points, &rule(lobe, points.len())).into_iter().map(|value| value.e()).collect();
+    let (least, most) = albedos.iter().fold((f64::INFINITY, 0.0f64), |(l, m), &e| (l.min(e), m.max(e)));
+    (most <= 1.0 + 1e-5).then_some(0.5 * (most - least))
 }
 
 /// The measurements as lines of CSV.
 pub fn to_csv(readings: &[Reading]) -> String {
-    let mut csv = String::from("x,y,size,precision,bytes,max_a,max_b,rms_a,rms_b\n");
-    for Reading { x, y, size, precision, bytes, errors: Errors { max, rms } } in readings {
-        let numbers = [max[0], max[1], rms[0], rms[1]].map(|number| format!("{number:.6e}")).join(",");
+    let mut csv = String::from("x,y,size,precision,bytes,max_everywhere,max_practical,rms\n");
+    for Reading { x, y, size, precision, bytes, everywhere, practical, rms } in readings {
+        let numbers = [everywhere, practical, rms].map(|number| format!("{number:.6e}")).join(",");
         csv += &format!("\"{x}\",\"{y}\",{size},{},{bytes},{numbers}\n", word(precision));
     }
     csv

@@ -18,7 +18,7 @@ fn previews_are_the_cpus(gpu: &Gpu) -> Result<(), Failed> {
             [Scene::Punctual, Scene::FurnaceTable, Scene::FurnaceIntegral, Scene::FurnaceDifference, Scene::Sky];
         for scene in scenes {
             let rows = [Row::new(lobe, scene)?];
-            let (ours, theirs) = (render(&rows, 48, &cpu)?, render(&rows, 48, &device)?);
+            let (ours, theirs) = (render(&rows, 48, &cpu, &|_| ())?, render(&rows, 48, &device, &|_| ())?);
             assert_eq!((ours.width, ours.height), (theirs.width, theirs.height));
             assert!(ours.rgb.iter().any(|&byte| byte > 100), "{ndf:?} {scene:?} is all dark");
             let difference = ours.rgb.iter().zip(&theirs.rgb).map(|(a, b)| a.abs_diff(*b)).max().unwrap();

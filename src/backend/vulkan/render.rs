@@ -15,6 +15,8 @@ pub struct RowData {
     pub columns: Vec<[f32; 4]>,
     /// (A, B) over n·v and roughness, a square of texels.
     pub table: Vec<[f32; 2]>,
+    /// The scale and the offset by which n·v becomes a texel, then those of roughness.
+    pub texels: [f32; 4],
     /// Pixels along the edge of a sphere's cell.
     pub cell: usize,
     /// The scene's number.
@@ -30,7 +32,8 @@ pub fn render_row(gpu: &Gpu, kernel: &Kernel, row: &RowData, rule: &HSpaceRule) 
     let pixels = Buffer::with(gpu, &vec![[f32::NAN; 4]; count])?;
     let side = row.table.len().isqrt();
     let job = [row.cell, row.columns.len(), row.scene as usize, side];
-    let push: Vec<u32> = job.into_iter().chain(rule.counts()).map(|n| n as u32).collect();
+    let (job, counts) = (job.map(|n| n as u32), rule.counts().map(|n| n as u32));
+    let push = [job, row.texels.map(f32::to_bits), counts].concat();
     let buffers = [&nodes, &columns, &table, &pixels];
     let groups = count.div_ceil(kernel.workgroup) as u32;
     Pipeline::new(gpu, kernel, &buffers)?.run(bytemuck::cast_slice(&push), groups)?;

@@ -8,10 +8,13 @@ use crate::cli::progress::Progress;
 use crate::cli::table_args::lobe;
 use crate::cli::{output, print};
 use crate::error::{Error, Result};
+use crate::model::Microfacet;
+use crate::precision::Precision;
 use crate::study::lookup::Reading;
 use crate::study::size::Cost;
 use crate::study::speed::{Plan, Speed};
 use crate::study::technique::Technique;
+use crate::study::worst::PRACTICAL;
 use crate::study::{Machine, lookup, size, speed};
 use crate::units::word;
 use serde::{Deserialize, Serialize};
@@ -89,17 +92,21 @@ fn page(Saved { machine, measured: Measured { speed, lookup, size }, .. }: &Save
     );
     text += &(picture("Error against time", "speed") + &summary(speed, machine));
     text += &picture("Error against evaluations", "evaluations");
-    text += &(picture("What size a table needs", "lookup") + &sizes_needed(lookup));
+    text += &(picture("What size a table needs", "lookup") + &sizes_needed(lookup, speed.plan.lobe.into()));
     text += &(picture("Where a device begins to pay", "size") + &devices_that_pay(size));
     text
 }
 
-/// The smallest tables, as Markdown.
-fn sizes_needed(readings: &[Reading]) -> String {
+/// The smallest tables over the practical domain, and how little size helps beyond it, as Markdown.
+fn sizes_needed(readings: &[Reading], lobe: Microfacet) -> String {
     const ERRORS: [f64; 5] = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3];
     let heads = ERRORS.map(|error| format!(" {error:e} |")).concat();
     let mut text = format!(
-        "KiB of the smallest table whose lookups are nowhere farther off\n\n| largest error |{heads}\n| --- |{}\n",
+        "Errors are those of the albedo E(F0) at the F0 that shows them most, the largest of a search over every cell \
+         and the corner.\n\nKiB of the smallest table whose lookups are nowhere farther off, for perceptual roughness \
+         from {} and n·v from {} on\n\n| largest error |{heads}\n| --- |{}\n",
+        PRACTICAL.roughness,
+        PRACTICAL.nov,
         " --- |".repeat(ERRORS.len())
     );
     for axes in lookup::AXES {
@@ -109,7 +116,38 @@ fn sizes_needed(readings: &[Reading]) -> String {
         };
         text += &format!("| `--x {} --y {}` |{}\n", axes.0, axes.1, ERRORS.map(cell).concat());
     }
+    text + &errors_everywhere(readings) + &corner(lobe)
+}
+
+/// The largest errors over all n·v and roughnesses by size, and of those over the practical domain, as Markdown.
+fn errors_everywhere(readings: &[Reading]) -> String {
+    let half = |axes| readings.iter().filter(move |r| r.has(axes) && r.precision == Precision::F16);
+    let sizes: Vec<usize> = half(lookup::CENTRES).map(|r| r.size).collect();
+    let heads: String = sizes.iter().map(|size| format!(" {size} x {size} |")).collect();
+    let rule = " --- |".repeat(sizes.len());
+    let mut text = format!(
+        "\nThe largest error anywhere of tables in half floats; behind the stroke, the largest over that domain\n\n\
+         | axes |{heads}\n| --- |{rule}\n"
+    );
+    for axes in lookup::AXES {
+        let cells: String = half(axes).map(|r| format!(" {:.3} / {:.4} |", r.everywhere, r.practical)).collect();
+        text += &format!("| `--x {} --y {}` |{cells}\n", axes.0, axes.1);
+    }
     text
+}
+
+/// Why no size helps in the corner, where that is so.
+fn corner(lobe: Microfacet) -> String {
+    match lookup::corner(lobe) {
+        Some(error) if error > 1e-3 => format!(
+            "\nNo table over n·v and roughness errs by less than {error:.3} near the corner n·v = roughness = 0, whatever \
+             its size: the two limits do not commute. Near it E depends on n·v/α alone, so that every neighbourhood of the \
+             corner holds values that lie {:.3} apart, and whatever is continuous there misses one of them by half of \
+             that. A table with the corner's own value at a texel errs by all of it.\n",
+            2.0 * error
+        ),
+        _ => String::new(),
+    }
 }
 
 fn devices_that_pay(costs: &[Cost]) -> String {
