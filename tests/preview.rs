@@ -1,8 +1,7 @@
 //! What previews read on the CPU: the curves along a sphere's roughness.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use splitsum::axis::AxisSpec;
-use splitsum::axis::{Axis, Parameter};
+use splitsum::axis::{Axis, AxisSpec, Parameter};
 use splitsum::backend::cpu;
 use splitsum::integrate::rule::Rule;
 use splitsum::lut::{Dfg, DfgChannels, Grid, Lut};
@@ -13,7 +12,7 @@ use splitsum::preview::{ROUGHNESSES, RULE};
 use splitsum::table::Table;
 
 /// Half a step of 8 bits where sRGB is steepest (12.92 steps to a step of light), of the hundredfold difference that a
-/// scene shows.
+/// scene shows; a third of it is asked for, so that hardly any byte differs.
 const HALF_A_STEP: f64 = 1.0 / (2.0 * 255.0 * 12.92 * 100.0);
 
 #[test]
@@ -24,16 +23,18 @@ fn interpolated_integrals_are_within_half_a_step_of_the_difference() {
         for roughness in ROUGHNESSES {
             let alpha = roughness * roughness;
             let curve = Curve::of_integral(lobe, alpha, &rule).unwrap();
-            // Between nodes, the first and the last of them included, and along the whole of it.
-            let mus: Vec<f64> = (0..4096).map(|i| ((f64::from(i) + 0.37) / 4096.0).powi(2)).collect();
+            // Evenly along √(n·v), no multiple of the nodes' spacing apart; and in the first cells, which are the worst.
+            let even = (0..20_000).map(|i| (f64::from(i) + 0.37) / 20_000.0);
+            let first = (1..1000).map(|i| f64::from(i) * 1e-6);
+            let mus: Vec<f64> = even.chain(first).map(|root| root * root).collect();
             let points: Vec<(f64, f64)> = mus.iter().map(|&mu| (mu, alpha)).collect();
             let truth = cpu::bake_points(lobe, &points, &rule);
-            let error = |(&mu, truth): (&f64, &splitsum::integrate::ScaleBias)| {
-                (curve.at(mu).a - truth.a).abs() + (curve.at(mu).b - truth.b).abs()
-            };
-            let worst = mus.iter().zip(&truth).map(error).fold(0.0, f64::max);
-            eprintln!("{ndf:?} {roughness}: {worst:.1e}");
-            assert!(worst < HALF_A_STEP, "{ndf:?} {roughness}: {worst}");
+            for (&mu, truth) in mus.iter().zip(&truth) {
+                let error = (curve.at(mu).a - truth.a).abs() + (curve.at(mu).b - truth.b).abs();
+                // Before the last node, of 4096 steps, the rule itself jumps: there it is off by what it may err.
+                let allowed = if mu.sqrt() > 1.0 - 2.0 / 4096.0 { rule.bound(lobe) } else { HALF_A_STEP / 3.0 };
+                assert!(error < allowed, "{ndf:?} {roughness} at {mu}: {error}");
+            }
         }
     }
 }
