@@ -38,9 +38,11 @@ pub struct Baked {
 /// Texels of a band: its numbers take some 60 MiB, and fill any number of cores.
 const BAND: usize = 1 << 20;
 
-/// Bytes that a band may take besides the table: a texel's integrals of two stages and of a device, its values and whether it is
-/// decided.
-pub const BAND_BYTES: usize = BAND * 96;
+/// Bytes that baking so many texels may take besides the table: of each texel of a band the integrals of two stages and of a
+/// device, its values and whether it is decided.
+pub fn working_bytes(texels: usize) -> usize {
+    texels.min(BAND) * 96
+}
 
 /// Bakes a table. It has passed its checks when it comes back: see [`crate::certify`].
 pub fn bake(request: &Request, backend: &Backend, progress: Progress) -> Result<Baked> {

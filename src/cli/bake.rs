@@ -3,10 +3,10 @@
 mod names;
 
 use super::table_args::{Job, TableArgs};
-use super::{config, depfile, output, progress::Progress, standard_output, usage};
+use super::{config, depfile, output, progress::Progress, resources, standard_output, usage};
 use crate::backend::vulkan::gpu::GpuOptions;
 use crate::backend::{Backend, BackendChoice};
-use crate::encode::{encode, metadata::TOOL};
+use crate::encode::{self, metadata::TOOL};
 use crate::error::{Error, Result};
 use crate::report::Report;
 use crate::request::Request;
@@ -99,7 +99,8 @@ pub fn run(arguments: BakeArgs) -> Result<()> {
     }
     let depfile = dependency_file(&arguments, &jobs)?;
     names::check(&arguments, &jobs, depfile.as_deref())?;
-    set_threads(arguments.threads)?;
+    resources::start_threads(arguments.threads)?;
+    resources::check_bakes(&jobs)?;
     let backend = open(&arguments)?;
     for name in jobs.iter().map(|job| &job.output).chain(&depfile) {
         output::check(name)?;
@@ -127,7 +128,7 @@ fn bake(job: &Job, backend: &Backend, arguments: &BakeArgs) -> Result<Vec<Baked>
     let baked: Vec<crate::Baked> = requests.iter().map(bake).collect::<Result<_>>()?;
     drop(progress);
     let (tables, reports): (Vec<Table>, Vec<Report>) = baked.into_iter().map(|b| (b.table, b.report)).unzip();
-    output::write(output, &encode(&tables, *format)?)?;
+    output::write_with(output, &mut |file| encode::write(&tables, *format, file))?;
     if !arguments.quiet && !arguments.json {
         let name = if output == "-" { "standard output" } else { output };
         for (request, report) in requests.iter().zip(&reports) {
@@ -150,15 +151,6 @@ fn open(arguments: &BakeArgs) -> Result<Backend> {
         return Err(Error::bad_input("tile", "at least 1", "0", "give a number of texels"));
     }
     Backend::open(choice, &options)
-}
-
-fn set_threads(threads: Option<usize>) -> Result<()> {
-    let Some(threads) = threads else { return Ok(()) };
-    if !(1..=1024).contains(&threads) {
-        return Err(Error::bad_input("threads", "1 to 1024", threads.to_string(), "give a number in that range"));
-    }
-    let built = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
-    built.map_err(|error| Error::Internal(format!("starting threads: {error}")))
 }
 
 fn dependency_file(arguments: &BakeArgs, jobs: &[Job]) -> Result<Option<String>> {

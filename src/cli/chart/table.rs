@@ -2,7 +2,9 @@
 
 use crate::backend::vulkan::gpu::GpuOptions;
 use crate::backend::{Backend, BackendChoice};
+use crate::bake::working_bytes;
 use crate::cli::output;
+use crate::cli::resources;
 use crate::cli::table_args::TableArgs;
 use crate::encode::Format;
 use crate::error::{Error, Result};
@@ -16,6 +18,12 @@ pub fn run(table: &TableArgs) -> Result<()> {
         return Err(Error::bad_input("output", "a name that ends in .png", job.output, "name a picture with -o"));
     }
     output::check(&job.output)?;
+    // Of each value the integral, its channel's plane, the same scaled, and three bytes of the picture.
+    let bytes = |request: &Request| {
+        let texels = request.x.size * request.y.size;
+        working_bytes(texels) + request.lut.channels().len() * texels * (3 * 8 + 3)
+    };
+    resources::check_memory(job.requests.iter().map(bytes).max().unwrap_or(0) as u64)?;
     let backend = Backend::open(BackendChoice::Auto, &GpuOptions::default())?;
     for request in &job.requests {
         // As they are integrated: a storage may not hold what the picture's scale shows.
