@@ -12,7 +12,7 @@ use crate::lut::energy::check_leaves_energy;
 use crate::model::fresnel::schlick_complement;
 use crate::model::{Diffuse, Microfacet};
 use crate::quadrature::double_exponential::tanh_sinh;
-use crate::units::word;
+use crate::units::{roughness_of, word};
 use serde::{Deserialize, Serialize};
 
 /// What gives back the energy that a Smith lobe loses between its facets.
@@ -130,7 +130,7 @@ pub fn furnaces(material: Material, f0s: &[f64], splits: &[Split], grid: &Grid, 
         let energy = |index: usize| {
             let ((mu, alpha), row) = (grid.point(index), index / grid.mus.len());
             let s = specular(points[index], row);
-            let albedo = base.albedo(mu, alpha.sqrt());
+            let albedo = base.albedo(mu, roughness_of(alpha));
             s + match split {
                 Split::Naive => (1.0 - f0) * schlick_complement(mu) * albedo,
                 Split::Albedo => (1.0 - s) * albedo,

@@ -47,16 +47,25 @@ macro_rules! unit {
 }
 
 unit!(PerceptualRoughness, "perceptual roughness", "0, or 5e-10 to 1", |v| v == 0.0
-    || (v * v >= SMALLEST_ALPHA && v <= 1.0));
+    || (alpha_of(v) >= SMALLEST_ALPHA && v <= 1.0));
 unit!(Alpha, "alpha", "0, or 2.5e-19 to 1", |v| v == 0.0 || (SMALLEST_ALPHA..=1.0).contains(&v));
 unit!(Cosine, "cosine", "0 to 1", |v| (0.0..=1.0).contains(&v));
 unit!(Ior, "index of refraction", "a finite number of at least 1", |v| v >= 1.0 && v.is_finite());
 unit!(F0, "F0", "0 to 1", |v| (0.0..=1.0).contains(&v));
 
+/// α = r² (Burley 2012, "Physically Based Shading at Disney").
+pub fn alpha_of(roughness: f64) -> f64 {
+    roughness * roughness
+}
+
+/// r = √α.
+pub fn roughness_of(alpha: f64) -> f64 {
+    alpha.sqrt()
+}
+
 impl From<PerceptualRoughness> for Alpha {
-    /// α = r² (Burley 2012, "Physically Based Shading at Disney").
     fn from(r: PerceptualRoughness) -> Self {
-        Alpha(r.0 * r.0)
+        Alpha(alpha_of(r.0))
     }
 }
 

@@ -10,7 +10,7 @@ use crate::integrate::rule::{REFERENCE, Rule};
 use crate::lut::Grid;
 use crate::model::Diffuse;
 use crate::report::map::{diverging, panels};
-use crate::units::word;
+use crate::units::{roughness_of, word};
 use serde::Serialize;
 
 /// Reflectances of the report: water, glass, a strong dielectric, half a mirror, a mirror.
@@ -110,7 +110,7 @@ fn describe(report: &Report) -> String {
     text.push_str("F0    split          least  at n.v, roughness     most  at n.v, roughness     mean");
     for Line { f0, split, extremes } in &report.furnaces {
         let Extremes { least, least_at, most, most_at, mean } = extremes;
-        let place = |(mu, alpha): &(f64, f64)| format!("{mu:.2}, {:.2}", alpha.sqrt());
+        let place = |(mu, alpha): &(f64, f64)| format!("{mu:.2}, {:.2}", roughness_of(*alpha));
         let (split, least_at, most_at) = (word(split), place(least_at), place(most_at));
         text.push_str(&format!(
             "\n{f0:<5} {split:<11} {least:>8.4}  {least_at:<17} {most:>8.4}  {most_at:<17} {mean:>8.4}"

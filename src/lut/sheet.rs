@@ -4,7 +4,7 @@ use super::{Grid, Lut};
 use crate::error::{Error, Result};
 use crate::precision::Precision;
 use crate::stored::Stored;
-use crate::units::word;
+use crate::units::{roughness_of, word};
 use rayon::prelude::*;
 
 /// The values of a table, of which some are still to come.
@@ -52,7 +52,7 @@ impl<'a> Sheet<'a> {
         let channels = self.lut.channels();
         let (mu, alpha) = self.grid.point(place / channels.len());
         let channel = channels[place % channels.len()].name;
-        let at = format!("at n.v = {mu}, alpha = {alpha}");
+        let at = format!("at n.v = {mu}, roughness = {}", roughness_of(alpha));
         if value.is_nan() {
             return Err(Error::Internal(format!("{channel} is no number {at}")));
         }

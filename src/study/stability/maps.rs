@@ -11,6 +11,7 @@ use crate::integrate::ScaleBias;
 use crate::integrate::rule::REFERENCE;
 use crate::lut::Grid;
 use crate::precision::Precision;
+use crate::units::alpha_of;
 use crate::units::word;
 
 impl Topic {
@@ -71,9 +72,8 @@ impl Topic {
     }
 
     fn grid(&self, [columns, rows]: [usize; 2]) -> Grid {
-        let roughness = |j| self.y.value(j, rows);
         let mus = (0..columns).map(|i| self.x.value(i, columns)).collect();
-        Grid::of(mus, (0..rows).map(|j| roughness(j) * roughness(j)).collect())
+        Grid::of(mus, (0..rows).map(|j| alpha_of(self.y.value(j, rows))).collect())
     }
 }
 
