@@ -4,10 +4,12 @@
 //! w = (1 - v·h)^5. The limits on the edges: α = 0 is a mirror, whatever n·v.
 
 pub mod average;
+pub mod bounds;
 pub mod h_space;
 pub mod l_space;
 pub mod reference;
 pub mod rule;
+pub mod rules;
 pub mod surrogate;
 
 use crate::ball::Ball;

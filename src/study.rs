@@ -1,12 +1,13 @@
 //! What methods are worth: their errors beside their times, on the machine at hand; and where formulas fail.
 
-pub mod worst;
+pub mod bounds;
 pub mod lookup;
 pub mod size;
 pub mod speed;
 pub mod stability;
 pub mod technique;
 pub mod textbook;
+pub mod worst;
 
 use crate::backend::vulkan::devices::DeviceInfo;
 use crate::integrate::ScaleBias;

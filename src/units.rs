@@ -10,7 +10,7 @@ pub struct PerceptualRoughness(f64);
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Alpha(f64);
 
-/// The cosine of an angle to the normal, in [0, 1]; n·v is written μ.
+/// The cosine of an angle to the normal: 0, or [`SMALLEST_COSINE`] to 1; n·v is written μ.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Cosine(f64);
 
@@ -25,6 +25,17 @@ pub struct F0(f64);
 /// α below this and above 0 is refused: α² must stay a normal number in f32. It is r = 5e-10.
 pub const SMALLEST_ALPHA: f64 = 2.5e-19;
 
+/// n·v below this and above 0 is refused. No formula comes near an end of its numbers there: the square of n·v, by which the reference
+/// divides, underflows in f64 below 1e-154, and n·v itself in f32 below 1e-38; 1e-30 is what models keep denominators above. No table
+/// needs less: a lobe at n·v = 1e-30 differs from its limit at 0 by less than any rule's bound, unless it has no limit.
+pub const SMALLEST_COSINE: f64 = 1e-30;
+
+/// A number in words of the command line: short where it has a hundred zeros.
+fn short(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").unwrap_or(&text).to_owned()
+}
+
 macro_rules! unit {
     ($name:ident, $what:literal, $expected:literal, $valid:expr) => {
         impl $name {
@@ -34,7 +45,7 @@ macro_rules! unit {
                 if valid(value) {
                     Ok($name(value))
                 } else {
-                    Err(Error::bad_input($what, $expected, format!("{value}"), "give a value in that range"))
+                    Err(Error::bad_input($what, $expected, short(value), "give a value in that range"))
                 }
             }
 
@@ -49,7 +60,7 @@ macro_rules! unit {
 unit!(PerceptualRoughness, "perceptual roughness", "0, or 5e-10 to 1", |v| v == 0.0
     || (alpha_of(v) >= SMALLEST_ALPHA && v <= 1.0));
 unit!(Alpha, "alpha", "0, or 2.5e-19 to 1", |v| v == 0.0 || (SMALLEST_ALPHA..=1.0).contains(&v));
-unit!(Cosine, "cosine", "0 to 1", |v| (0.0..=1.0).contains(&v));
+unit!(Cosine, "cosine", "0, or 1e-30 to 1", |v| v == 0.0 || (SMALLEST_COSINE..=1.0).contains(&v));
 unit!(Ior, "index of refraction", "a finite number of at least 1", |v| v >= 1.0 && v.is_finite());
 unit!(F0, "F0", "0 to 1", |v| (0.0..=1.0).contains(&v));
 

@@ -1,5 +1,6 @@
 //! `splitsum chart`
 
+mod bounds;
 mod speed;
 mod stability;
 mod table;
@@ -27,6 +28,8 @@ pub enum ChartArgs {
     Speed(speed::SpeedArgs),
     /// Map where formulas and methods fail: into the corners of angle and roughness, in f64, in f32 and on every Vulkan device
     Stability(stability::StabilityArgs),
+    /// Climb towards the largest error over its bound, of every rule, lobe and channel, on this CPU and on every Vulkan device
+    Bounds(bounds::BoundsArgs),
 }
 
 /// What every study takes.
@@ -72,6 +75,7 @@ pub fn run(arguments: &ChartArgs) -> Result<()> {
         ChartArgs::Table(table) => table::run(table),
         ChartArgs::Speed(arguments) => speed::run(arguments),
         ChartArgs::Stability(arguments) => stability::run(arguments),
+        ChartArgs::Bounds(arguments) => bounds::run(arguments),
     }
 }
 
@@ -108,25 +112,25 @@ impl StudyArgs {
         if let Some(file) = &self.from {
             return read_study(file);
         }
-        let devices = self.devices()?;
+        let devices = devices(self.device.as_deref(), self.cpu)?;
         let measured = measure(&devices, &Progress::of_work("measuring", self.quiet))?;
         let saved = Saved { tool: TOOL.into(), machine: devices.machine(), measured };
         let json = serde_json::to_string(&saved).map_err(|error| Error::Internal(error.to_string()))?;
         output::write(path, json.as_bytes())?;
         Ok(saved)
     }
+}
 
-    /// The devices to measure: none where there is no driver, or none is wanted.
-    fn devices(&self) -> Result<Devices> {
-        let named = |device: &str| GpuOptions { device: Some(device.into()), ..GpuOptions::default() };
-        let infos = match &self.device {
-            Some(name) => vec![Gpu::open(&named(name))?.info().clone()],
-            None if self.cpu => Vec::new(),
-            None => list_devices().unwrap_or_default().into_iter().filter(|info| info.unusable.is_none()).collect(),
-        };
-        let options = infos.iter().map(|info| named(&info.uuid)).collect();
-        Ok(Devices { infos, options })
-    }
+/// The devices to measure: the one that is named; none where there is no driver, or the CPU alone is wanted.
+fn devices(device: Option<&str>, cpu: bool) -> Result<Devices> {
+    let named = |device: &str| GpuOptions { device: Some(device.into()), ..GpuOptions::default() };
+    let infos = match device {
+        Some(name) => vec![Gpu::open(&named(name))?.info().clone()],
+        None if cpu => Vec::new(),
+        None => list_devices().unwrap_or_default().into_iter().filter(|info| info.unusable.is_none()).collect(),
+    };
+    let options = infos.iter().map(|info| named(&info.uuid)).collect();
+    Ok(Devices { infos, options })
 }
 
 impl Devices {

@@ -78,7 +78,13 @@ impl LSpaceRule {
 /// Whether the formula serves for a lobe: its azimuth integral is that of GGX, and the layer that it subtracts that of the
 /// height-correlated term, which the joint approximation has in another form.
 pub fn l_space_applies(lobe: Microfacet) -> bool {
-    lobe.ndf == Ndf::Ggx && lobe.masking != Masking::Joint
+    match lobe.ndf {
+        Ndf::Ggx => match lobe.masking {
+            Masking::HeightCorrelated | Masking::Separable | Masking::SchlickSmith | Masking::Implicit => true,
+            Masking::Joint | Masking::Neubelt => false,
+        },
+        Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong | Ndf::Charlie => false,
+    }
 }
 
 /// (A, B) of a GGX lobe at n·v = `mu` in [0, 1] and `alpha` in (0, 1].

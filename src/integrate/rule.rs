@@ -1,14 +1,18 @@
-//! The quadrature rules by name, each with the bound of its error: what a tolerance picks from.
+//! A quadrature rule with its name and the bounds of its error: what a tolerance picks from.
 
+pub use super::bounds::{CHARLIE_LIMIT, MARGIN};
+pub use super::rules::{REFERENCE, RULES};
+
+use super::bounds::{Bounds, ShareOfB};
 use super::h_space::{HSpaceNodes, HSpaceRule, h_space};
 use super::l_space::{LSpaceNodes, LSpaceRule, l_space, l_space_applies};
 use super::reference::{ReferenceNodes, ReferenceRule, reference};
-use super::surrogate::SurrogateRule;
+use super::rules::FINER_REFERENCE;
+use super::surrogate::{SurrogateRule, surrogate_applies};
 use super::{Integrand, ScaleBias};
 use crate::error::{Error, Result};
 use crate::lanes::{Lanes, Real, WIDTH};
 use crate::model::{Masking, Microfacet, Ndf};
-use crate::quadrature::slope_map::Power;
 
 /// How a rule integrates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,10 +36,8 @@ pub struct Rule {
     pub name: &'static str,
     /// How it integrates.
     pub method: Method,
-    /// What it promises for each distribution, in the order of [`Ndf::ALL`]; infinite where it does not apply.
-    bounds: [f64; Ndf::ALL.len()],
-    /// What it promises of B besides, for every decade of it: at most `.0` B + `.1`.
-    bound_of_b: (f64, f64),
+    /// What it promises.
+    pub(super) bounds: Bounds,
 }
 
 /// What f32 arithmetic may add to a rule's error on a device: 9e-7 (8e-7 were measured with correctly rounded ÷ and √).
@@ -46,80 +48,6 @@ pub fn f32_arithmetic(integrand: impl Into<Integrand>) -> f64 {
         Integrand::Specular(Microfacet { ndf: Ndf::Charlie, masking: Masking::HeightCorrelated }) => 2e-6,
         _ => 9e-7,
     }
-}
-
-/// Where Charlie's ring lies so near the horizon that the reference keeps 2e-6 only: below this α, r = 0.07.
-pub const CHARLIE_LIMIT: f64 = 0.0049;
-
-/// All rules.
-///
-/// The bounds were measured against the reference on 8,000 to 40,000 points crowded towards every edge, for every masking,
-/// then rounded up by a third or more; `tests/quadrature.rs` repeats it, and `tests/coverage.rs` on a million. Walter's Λ
-/// jumps, which no rule over half vectors resolves. Charlie's columns hold over its whole domain, and the reference's 1e-13
-/// above [`CHARLIE_LIMIT`] alone ([`Rule::errors_at`]).
-pub const RULES: [Rule; 15] = [
-    Rule {
-        name: "closed-form",
-        method: Method::ClosedForm,
-        bounds: [f64::INFINITY; Ndf::ALL.len()],
-        bound_of_b: (1.0, 0.0),
-    },
-    h("h56", [8, 3, 8, 4], Power::Two, [1e-3, 2e-3, 3e-3, 2e-2, 4e-2]),
-    h("h130", [12, 5, 14, 5], Power::Four, [1e-4, 1e-4, 5e-4, 1e-3, 2e-2]),
-    h("h288", [16, 8, 20, 8], Power::Four, [1e-5, 1e-5, 1.5e-4, 4e-5, 3e-3]),
-    h("h640", [32, 10, 32, 10], Power::Four, [1e-6, 1e-6, 6e-5, 3e-6, 5e-5]),
-    h("h1536", [48, 16, 48, 16], Power::Four, [1e-7, 1e-7, 1.2e-5, 1e-7, 4e-6]),
-    h("h6144", [96, 32, 96, 32], Power::Four, [3e-9, 5e-10, 2e-6, 1e-9, 3e-6]),
-    d("d6144", [64, 48], [5e-7, 5e-7, 5e-7, 5e-7, f64::INFINITY], (1e-6, 1e-12)),
-    d("d10240", [80, 64], [6e-9, 6e-9, 6e-9, 6e-9, f64::INFINITY], (4e-8, 1e-12)),
-    d("reference", [160, 150], [1e-13, 1e-13, 1e-13, 1e-13, 2e-6], (3e-12, 3e-24)),
-    l("l288", L288, 3e-5, (1.0, 0.0)),
-    l("l512", L512, 8e-6, (1.0, 0.0)),
-    l("l4608", L4608, 5e-9, (8e-8, 1e-12)),
-    s("s640", [32, 20], Power::Two, L512, 8e-6, (1.0, 0.0)),
-    s("s2304", [64, 36], Power::Four, L4608, 3e-8, (8e-8, 3e-11)),
-];
-
-const L288: LSpaceRule = LSpaceRule { slope: 24, azimuth: 12, power: Power::Two };
-const L512: LSpaceRule = LSpaceRule { slope: 32, azimuth: 16, power: Power::Two };
-const L4608: LSpaceRule = LSpaceRule { slope: 96, azimuth: 48, power: Power::Four };
-
-/// The rule that tables are measured against.
-pub const REFERENCE: Rule = RULES[9];
-
-/// The rule that tables by [`REFERENCE`] itself are measured against.
-const FINER_REFERENCE: Rule = d("reference", [240, 220], [1e-13, 1e-13, 1e-13, 1e-13, 2e-6], (3e-12, 3e-24));
-
-const fn h(name: &'static str, nodes: [usize; 4], power: Power, bounds: [f64; Ndf::ALL.len()]) -> Rule {
-    let [radial, azimuth, radial_horizon, azimuth_horizon] = nodes;
-    let rule = HSpaceRule { radial, azimuth, radial_horizon, azimuth_horizon, power };
-    Rule { name, method: Method::HSpace(rule), bounds, bound_of_b: (1.0, 0.0) }
-}
-
-const fn l(name: &'static str, rule: LSpaceRule, bound: f64, bound_of_b: (f64, f64)) -> Rule {
-    Rule { name, method: Method::LSpace(rule), bounds: ggx_alone(bound), bound_of_b }
-}
-
-const fn s(
-    name: &'static str,
-    nodes: [usize; 2],
-    power: Power,
-    source: LSpaceRule,
-    bound: f64,
-    bound_of_b: (f64, f64),
-) -> Rule {
-    let rule = SurrogateRule { directions: nodes[0], roughnesses: nodes[1], power, source };
-    Rule { name, method: Method::Surrogate(rule), bounds: ggx_alone(bound), bound_of_b }
-}
-
-const fn ggx_alone(bound: f64) -> [f64; Ndf::ALL.len()] {
-    let none = f64::INFINITY;
-    [bound, none, none, none, none]
-}
-
-const fn d(name: &'static str, nodes: [usize; 2], bounds: [f64; Ndf::ALL.len()], bound_of_b: (f64, f64)) -> Rule {
-    let rule = ReferenceRule { outer: nodes[0], inner: nodes[1] };
-    Rule { name, method: Method::Reference(rule), bounds, bound_of_b }
 }
 
 impl Rule {
@@ -149,7 +77,7 @@ impl Rule {
     pub fn for_rounding(integrand: impl Into<Integrand>, texels: usize) -> Option<Rule> {
         let integrand = integrand.into();
         let closed = |rule: &Rule| rule.method == Method::ClosedForm;
-        Rule::cheapest(integrand, texels, |rule| rule.bound_of_b.0 < 1e-5 || closed(rule))
+        Rule::cheapest(integrand, texels, |rule| rule.bounds.of_b.share < 1e-5 || closed(rule))
     }
 
     fn cheapest(integrand: Integrand, texels: usize, serves: impl Fn(&Rule) -> bool) -> Option<Rule> {
@@ -160,7 +88,7 @@ impl Rule {
     /// The largest error of A and of B over the whole domain, in exact arithmetic: absolute, or of albedos above 1 relative.
     pub fn bound(&self, integrand: impl Into<Integrand>) -> f64 {
         match integrand.into() {
-            Integrand::Specular(lobe) => self.bounds[lobe.ndf as usize],
+            Integrand::Specular(lobe) => self.bounds.over_domain(lobe.ndf),
             // A few units in the last place of its functions.
             Integrand::Diffuse(_) if self.method == Method::ClosedForm => 4e-15,
             Integrand::Diffuse(_) => f64::INFINITY,
@@ -183,20 +111,15 @@ impl Rule {
     /// How far A and B of a table by the rule may be from the truth where it has the value `value`: what [`Rule::bound`] says, and
     /// for B, which spans ten decades, a share of itself.
     pub fn errors_at(&self, integrand: impl Into<Integrand>, alpha: f64, value: ScaleBias) -> ScaleBias {
-        let scale = value.e().max(1.0);
-        let (share, floor) = self.bound_of_b;
-        let (all, of_b) = match integrand.into() {
+        let (integrand, scale) = (integrand.into(), value.e().max(1.0));
+        let (a, b) = match integrand {
             // A mirror, in closed form.
-            Integrand::Specular(_) if alpha == 0.0 => (1e-15, 1e-15),
-            Integrand::Specular(lobe) if lobe.ndf == Ndf::Charlie && alpha < CHARLIE_LIMIT => {
-                (self.bound(lobe), f64::INFINITY)
-            }
-            Integrand::Specular(lobe) if lobe.ndf == Ndf::Charlie => {
-                (self.bound_above_limit(), share * value.b.abs() + floor * scale)
-            }
-            integrand => (self.bound(integrand), share * value.b.abs() + floor * scale),
+            Integrand::Specular(_) if alpha == 0.0 => (1e-15 * scale, 1e-15 * scale),
+            Integrand::Specular(lobe) => self.bounds.at(lobe.ndf, alpha, value.b, scale),
+            // B is 0.
+            Integrand::Diffuse(_) => (self.bound(integrand) * scale, value.b.abs().min(self.bound(integrand) * scale)),
         };
-        ScaleBias { a: all * scale, b: of_b.min(all * scale) }
+        ScaleBias { a, b }
     }
 
     /// The same of a table that a device has computed in f32.
@@ -210,12 +133,6 @@ impl Rule {
         let b = (value.b.abs() / scale).sqrt();
         let of_b = if self.bound(integrand) <= 3e-6 { scale * (2e-6 * b * b.sqrt() + 2e-9) } else { f64::INFINITY };
         ScaleBias { a: rule.a + f32s, b: if rule.b.is_finite() { of_b.min(rule.b + f32s) } else { rule.b } }
-    }
-
-    /// The bound of Charlie above [`CHARLIE_LIMIT`]: double exponential rules are as sharp there as for any other lobe.
-    fn bound_above_limit(&self) -> f64 {
-        let [smooth, .., charlie] = self.bounds;
-        if matches!(self.method, Method::Reference(_)) { smooth } else { charlie }
     }
 
     /// Evaluations of the integrand for a table of `texels`; of the double exponential rules for a lobe without kinks.
@@ -261,12 +178,14 @@ impl Rule {
             (Method::ClosedForm, Integrand::Diffuse(_)) => true,
             (Method::ClosedForm, _) | (_, Integrand::Diffuse(_)) => false,
             (Method::LSpace(_), Integrand::Specular(lobe)) => l_space_applies(lobe),
-            // The implicit term's albedo falls with μ², which s does not follow.
-            (Method::Surrogate(_), Integrand::Specular(lobe)) => {
-                l_space_applies(lobe) && lobe.masking != Masking::Implicit
-            }
-            _ => true,
+            (Method::Surrogate(_), Integrand::Specular(lobe)) => surrogate_applies(lobe),
+            (Method::HSpace(_) | Method::Reference(_), Integrand::Specular(lobe)) => visibility_knows_no_azimuth(lobe),
         }
+    }
+
+    /// The same rule with a promise of its own: at most `bound` for every lobe, A and B. It is for tests of what watches over bounds.
+    pub fn promising(self, bound: f64) -> Rule {
+        Rule { bounds: Bounds::same(bound, ShareOfB::of(0.0, bound)), ..self }
     }
 
     /// The rule that a table by this one is measured against.
@@ -287,6 +206,19 @@ impl Rule {
             Method::Surrogate(rule) => Integrator::LSpace(rule.source.nodes()),
             Method::ClosedForm => Integrator::ClosedForm,
         }
+    }
+}
+
+/// Whether n·l V depends on n·l and n·v alone, which the reference takes out of the integral over the azimuth, and the rules over half
+/// vectors out of nothing but know no other. A term that depends on v·h (of V-cavities, of Kelemen) has no rule here.
+fn visibility_knows_no_azimuth(lobe: Microfacet) -> bool {
+    match lobe.masking {
+        Masking::HeightCorrelated
+        | Masking::Separable
+        | Masking::SchlickSmith
+        | Masking::Joint
+        | Masking::Implicit
+        | Masking::Neubelt => true,
     }
 }
 

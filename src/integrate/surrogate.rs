@@ -7,9 +7,10 @@
 //! (B itself changes over μ ~ 1, which s does not resolve at small α).
 
 use super::ScaleBias;
-use super::l_space::LSpaceRule;
+use super::l_space::{LSpaceRule, l_space_applies};
 use crate::lanes::{Lanes, Real, WIDTH};
 use crate::model::fresnel::schlick_weight;
+use crate::model::{Masking, Microfacet};
 use crate::quadrature::slope_map::Power;
 use std::f64::consts::PI;
 
@@ -27,6 +28,15 @@ pub struct SurrogateRule {
     pub power: Power,
     /// What integrates at the nodes.
     pub source: LSpaceRule,
+}
+
+/// Whether it follows a lobe: of those that its source integrates, not the implicit term's, whose albedo falls with μ².
+pub fn surrogate_applies(lobe: Microfacet) -> bool {
+    let followed = match lobe.masking {
+        Masking::HeightCorrelated | Masking::Separable | Masking::SchlickSmith => true,
+        Masking::Joint | Masking::Implicit | Masking::Neubelt => false,
+    };
+    followed && l_space_applies(lobe)
 }
 
 /// The polynomials, as Chebyshev coefficients.
