@@ -3,9 +3,10 @@
 //! Every bound is measured: `splitsum chart bounds` climbs towards the largest error from thousands of starts, and what it finds
 //! stays below the bound over [`MARGIN`] (docs/bounds.md).
 
-use crate::model::Ndf;
+use crate::model::{Masking, Microfacet, Ndf};
 
-/// Where Charlie's ring lies so near the horizon that the reference keeps 2e-6 only: below this α, r = 0.07.
+/// Below this α, r = 0.07, Charlie's ring lies so near the horizon that 2e-6 is all that is promised of the reference, and nothing of
+/// its coarser kin.
 pub const CHARLIE_LIMIT: f64 = 0.0049;
 
 /// How often the largest error that a long search finds fits into a bound.
@@ -25,8 +26,11 @@ pub struct Bounds {
     pub beckmann_walter: f64,
     /// Of Blinn-Phong.
     pub blinn_phong: f64,
-    /// Of Charlie over its whole domain.
+    /// Of Charlie over its whole domain, with the masking terms that are no fit.
     pub charlie: f64,
+    /// Of Charlie over its whole domain with its fitted Λ: that is so large at small α that what is seen of the ring is its far tail, which
+    /// falls faster than the rules over half vectors follow (below roughness 1e-6).
+    pub charlie_fitted: f64,
     /// Of Charlie from [`CHARLIE_LIMIT`] up.
     pub charlie_above_limit: f64,
     /// What is promised of B besides, but of Charlie's below [`CHARLIE_LIMIT`].
@@ -70,6 +74,7 @@ impl Bounds {
             beckmann_walter: bound,
             blinn_phong: bound,
             charlie: bound,
+            charlie_fitted: bound,
             charlie_above_limit: bound,
             of_b,
         }
@@ -80,22 +85,23 @@ impl Bounds {
         Bounds { ggx, ..Bounds::same(NONE, of_b) }
     }
 
-    /// The bound over the whole domain of a distribution.
-    pub fn over_domain(&self, ndf: Ndf) -> f64 {
-        match ndf {
+    /// The bound over the whole domain of a lobe.
+    pub fn over_domain(&self, lobe: Microfacet) -> f64 {
+        match lobe.ndf {
             Ndf::Ggx => self.ggx,
             Ndf::Beckmann => self.beckmann,
             Ndf::BeckmannWalter => self.beckmann_walter,
             Ndf::BlinnPhong => self.blinn_phong,
+            Ndf::Charlie if lobe.masking == Masking::HeightCorrelated => self.charlie_fitted,
             Ndf::Charlie => self.charlie,
         }
     }
 
     /// The bounds of A and of B at an α, for a B where the albedo, if it is above 1, is `scale`.
-    pub(super) fn at(&self, ndf: Ndf, alpha: f64, b: f64, scale: f64) -> (f64, f64) {
-        let (all, of_b) = match ndf {
-            Ndf::Ggx | Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong => (self.over_domain(ndf), self.of_b),
-            Ndf::Charlie if alpha < CHARLIE_LIMIT => (self.charlie, ShareOfB::NONE),
+    pub(super) fn at(&self, lobe: Microfacet, alpha: f64, b: f64, scale: f64) -> (f64, f64) {
+        let (all, of_b) = match lobe.ndf {
+            Ndf::Ggx | Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong => (self.over_domain(lobe), self.of_b),
+            Ndf::Charlie if alpha < CHARLIE_LIMIT => (self.over_domain(lobe), ShareOfB::NONE),
             Ndf::Charlie => (self.charlie_above_limit, self.of_b),
         };
         (all * scale, of_b.at(b, scale).min(all * scale))

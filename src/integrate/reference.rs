@@ -7,13 +7,14 @@
 //! E = ∫ (2 sin θ_l/(1+T²)) (n·l V) dT ∫ 4 D(t) F dz/(1+z²), V being independent of w.
 //!
 //! T runs from -t1 (n·l = 0) to tan(θ_v/2) (n·l = 1), in pieces that meet at the mirror direction and where the masking
-//! term is not smooth, each mapped by T = width · sinh r; the inner variable is z = k z', k being the scale of D's peak.
+//! term is not smooth, each mapped by T = width · sinh r about the mirror direction, or for sheen, whose half vectors lie near the
+//! horizon, by T = -t1 + √α sinh r; the inner variable is z = k z', k being the scale of D's peak.
 
 use super::ScaleBias;
 use super::h_space::TAIL_DEPTH;
 use crate::lanes::Real;
-use crate::model::Microfacet;
 use crate::model::fresnel::schlick_weight;
+use crate::model::{Microfacet, Ndf};
 use crate::quadrature::double_exponential::{DeNode, half_line, half_line_with_cusp, tanh_sinh};
 
 /// How many nodes: `outer` for each of the pieces, `inner` for the azimuth.
@@ -58,27 +59,56 @@ pub fn reference<R: Real>(lobe: Microfacet, mu: R, alpha: R, nodes: &ReferenceNo
     let sv = (mu.complement() * (mu + 1.0)).sqrt();
     let (low, high) = (mu / (sv + 1.0), sv / (mu + 1.0));
     let width = lobe.ndf.width(alpha);
-    let view = View { lobe, mu, smu: lobe.masking_smith(mu, alpha), sv, alpha, width, low, high };
+    // Beyond the lobe's ends there is nothing to integrate.
+    let (first, last, centre, unit) = match lobe.ndf {
+        Ndf::Ggx => {
+            let end = width * ggx_end(mu, alpha);
+            (-low.least(end), high.least(end), zero, width)
+        }
+        Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong => {
+            let end = width * lobe.ndf.slope_end(alpha, TAIL_DEPTH);
+            (-low.least(end), high.least(end), zero, width)
+        }
+        Ndf::Charlie => {
+            let unit = alpha.sqrt();
+            (-low, high.least(unit * CHARLIE_END - low), -low, unit)
+        }
+    };
+    let view = View { lobe, mu, smu: lobe.masking_smith(mu, alpha), sv, alpha, width, low, high, centre, unit };
     let inner = if lobe.ndf.smooth_at_normal() { &nodes.inner } else { &nodes.inner_with_cusp };
-    // Beyond the lobe's end there is nothing to integrate.
-    let end = width * lobe.ndf.slope_end(alpha, TAIL_DEPTH);
-    let (first, last) = (-low.least(end), high.least(end));
+    let mirror = zero.least(last);
     match lobe.break_at(alpha) {
         None => {
-            let mut sum = view.piece(first, zero, &nodes.outer, inner);
-            sum.add(R::from(1.0), view.piece(zero, last, &nodes.outer, inner));
+            let mut sum = view.piece(first, mirror, &nodes.outer, inner);
+            sum.add(R::from(1.0), view.piece(mirror, last, &nodes.outer, inner));
             sum
         }
         Some(x) => {
             let middle = ((x - mu) / (sv + (x.complement() * (x + 1.0)).sqrt())).most(first).least(last);
             let mut sum = ScaleBias::zero();
-            // One of the two inner ends is 0, the other the break.
-            for ends in [first, middle.least(zero), middle.most(zero), last].windows(2) {
+            // One of the two inner ends is the mirror direction, the other the break.
+            for ends in [first, middle.least(mirror), middle.most(mirror), last].windows(2) {
                 sum.add(R::from(1.0), view.piece(ends[0], ends[1], &nodes.outer, inner));
             }
             sum
         }
     }
+}
+
+/// Charlie ends where n·l is 20 √α or more: (sin θ_h)^(1/α) is there below exp(-(n·l)²/(8α)) = 2e-22 of what it is at the horizon. As a
+/// multiple of √α in T, of which n·l is at least half.
+const CHARLIE_END: f64 = 40.0;
+
+/// Below this α the slopes of GGX are cut off nearer, lest the nodes be spread over twenty decades of which two count.
+///
+/// Beyond the scaled slope y lie y^-2 of a lobe, and where that is tan θ_v and more α/n·v of y^-1: 2e-18 at the cut. Of B all of what
+/// the tail gives may be lost, 3e-4 α² at n·v = 1, which is a tenth of the floor of the reference's promise here, and below it less.
+const SHARPEST: f64 = 3e-11;
+
+/// The scaled slope at which GGX ends.
+#[inline(always)]
+fn ggx_end<R: Real>(mu: R, alpha: R) -> R {
+    alpha.select_below(R::from(SHARPEST), alpha / mu * 1e18 + 1e9, R::from(1e18))
 }
 
 struct View<R> {
@@ -93,13 +123,17 @@ struct View<R> {
     low: R,
     /// T = high at n·l = 1.
     high: R,
+    /// T = centre + unit sinh r.
+    centre: R,
+    /// The same.
+    unit: R,
 }
 
 impl<R: Real> View<R> {
     /// The share of E of the slopes from `start` to `end`; nothing where they are the same.
     #[inline(always)]
     fn piece(&self, start: R, end: R, outer: &[DeNode], inner: &[(f64, f64)]) -> ScaleBias<R> {
-        let asinh = |t: R| t.zip(self.width, |t, width| libm::asinh(t / width));
+        let asinh = |t: R| (t - self.centre).zip(self.unit, |t, unit| libm::asinh(t / unit));
         let (r0, r1) = (asinh(start), asinh(end));
         let length = r1 - r0;
         let mut sum = ScaleBias::zero();
@@ -107,11 +141,12 @@ impl<R: Real> View<R> {
             // The nearer end decides how r is written, so that the distance to it in T has no cancellation.
             let (from_start, to_end) = (length * node.from_start, length * node.to_end);
             let r = from_start.select_below(to_end, r0 + from_start, r1 - to_end);
-            let gap = |d: R, middle: R| self.width * 2.0 * middle.zip(d, |m, d| libm::cosh(m) * libm::sinh(0.5 * d));
+            let gap = |d: R, middle: R| self.unit * 2.0 * middle.zip(d, |m, d| libm::cosh(m) * libm::sinh(0.5 * d));
             let from_low = (start + self.low) + gap(from_start, r0 + from_start * 0.5);
             let to_high = (self.high - end) + gap(to_end, r1 - to_end * 0.5);
-            let value = self.plane(self.width * r.zip(r, |r, _| libm::sinh(r)), from_low, to_high, inner);
-            sum.add(length * node.weight * self.width * r.zip(r, |r, _| libm::cosh(r)), value);
+            let slope = self.centre + self.unit * r.zip(r, |r, _| libm::sinh(r));
+            let value = self.plane(slope, from_low, to_high, inner);
+            sum.add(length * node.weight * self.unit * r.zip(r, |r, _| libm::cosh(r)), value);
         }
         sum.where_positive(length)
     }

@@ -88,7 +88,7 @@ impl Rule {
     /// The largest error of A and of B over the whole domain, in exact arithmetic: absolute, or of albedos above 1 relative.
     pub fn bound(&self, integrand: impl Into<Integrand>) -> f64 {
         match integrand.into() {
-            Integrand::Specular(lobe) => self.bounds.over_domain(lobe.ndf),
+            Integrand::Specular(lobe) => self.bounds.over_domain(lobe),
             // A few units in the last place of its functions.
             Integrand::Diffuse(_) if self.method == Method::ClosedForm => 4e-15,
             Integrand::Diffuse(_) => f64::INFINITY,
@@ -115,7 +115,7 @@ impl Rule {
         let (a, b) = match integrand {
             // A mirror, in closed form.
             Integrand::Specular(_) if alpha == 0.0 => (1e-15 * scale, 1e-15 * scale),
-            Integrand::Specular(lobe) => self.bounds.at(lobe.ndf, alpha, value.b, scale),
+            Integrand::Specular(lobe) => self.bounds.at(lobe, alpha, value.b, scale),
             // B is 0.
             Integrand::Diffuse(_) => (self.bound(integrand) * scale, value.b.abs().min(self.bound(integrand) * scale)),
         };

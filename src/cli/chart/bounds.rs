@@ -70,9 +70,12 @@ fn page(found: &Search, devices: &Devices, arguments: &BoundsArgs) -> String {
             text += &of_channel.max_by(|a, b| a.ratio().total_cmp(&b.ratio())).map_or(String::new(), row);
         }
     }
-    text += &format!("\n## Every rule, lobe and channel\n\n{HEAD}");
-    text + &found.findings.iter().map(row).collect::<String>()
+    text += &format!("\n## Every lobe and channel beyond a quarter\n\n{HEAD}");
+    text + &found.findings.iter().filter(|finding| finding.ratio() > SHOWN).map(row).collect::<String>()
 }
+
+/// Smaller shares of a bound are left out of the second table.
+const SHOWN: f64 = 0.25;
 
 const HEAD: &str = "| rule | by | lobe | channel | n·v | 1 - n·v | α | error | bound | error/bound |\n\
                     | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
