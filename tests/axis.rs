@@ -77,6 +77,13 @@ fn wrong_words_sizes_and_values_are_refused() {
     for size in [0, 16385, usize::MAX] {
         assert!(Axis::new("nov".parse().unwrap(), size).is_err());
     }
+    // n·v so small that its square is no number; 0 is its limit.
+    for (min, taken) in [("1e-200", false), ("5e-324", false), ("9.9e-31", false), ("1e-30", true), ("0", true)] {
+        let axis = Axis::new(format!("nov,edges,min={min}").parse().unwrap(), 2);
+        assert_eq!(axis.is_ok(), taken, "n.v from {min}");
+        let said = axis.err().map_or(String::new(), |error| error.to_string());
+        assert!(taken || said.contains("expected 0, or 1e-30 to 1"), "{said}");
+    }
     // Roughness so small that alpha² would not be a normal f32.
     assert!(Axis::new("roughness,offset=1e-9".parse().unwrap(), 16).is_err());
     assert!(Axis::new("roughness,sqrt".parse().unwrap(), 16384).is_ok());

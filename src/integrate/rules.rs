@@ -12,7 +12,7 @@ use crate::quadrature::slope_map::Power;
 pub const CLOSED_FORM: Rule = Rule { name: "closed-form", method: Method::ClosedForm, bounds: Bounds::NONE };
 
 /// The cheapest over half vectors.
-pub const H56: Rule = h("h56", [8, 3, 8, 4], Power::Two, [1e-3, 2.5e-3, 3e-3, 2e-2], [4e-2, 4e-2]);
+pub const H56: Rule = h("h56", [8, 3, 8, 4], Power::Two, [1e-3, 2.5e-3, 3e-3, 2e-2], [6e-2, 6e-2]);
 /// Over half vectors.
 pub const H130: Rule = h("h130", [12, 5, 14, 5], Power::Four, [1e-4, 1e-4, 5e-4, 1e-3], [2e-2, 2e-2]);
 /// Over half vectors.

@@ -82,8 +82,10 @@ impl Places {
             0..3 => crowded,
             3 => self.within(u, r * r),
             4 => self.within(crowded.mu, r * r),
-            // n·v ~ α, where shadows begin, and sin θ_v ~ α, where the lobe stands around the normal.
-            5 => self.within(crowded.alpha * few, crowded.alpha),
+            // n·v ~ α, where shadows begin; n·v ~ √α, where Charlie's ring touches the horizon; sin θ_v ~ α, where a lobe stands around the
+            // normal.
+            5 if u < 0.5 => self.within(crowded.alpha * few, crowded.alpha),
+            5 => self.within(crowded.alpha.sqrt() * few, crowded.alpha),
             6 => self.within(1.0 - (crowded.alpha * few) * (crowded.alpha * few), crowded.alpha),
             _ => {
                 let limit = if r < 0.5 { CHARLIE_LIMIT } else { SMOOTHEST * SMOOTHEST };

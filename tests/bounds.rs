@@ -1,0 +1,205 @@
+//! The bounds of the rules: a short search for the largest error over its bound, the places where bounds have once been broken, and
+//! that whoever states too small a bound is found out. `splitsum chart bounds` searches at length (docs/bounds.md).
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+#[path = "common/program.rs"]
+mod program;
+
+use common::ggx;
+use program::{run, stderr};
+use splitsum::error::ExitCode;
+use splitsum::integrate::rule::{MARGIN, REFERENCE, RULES, Rule};
+use splitsum::integrate::rules::{CLOSED_FORM, D6144, D10240, H640, L4608, S2304};
+use splitsum::integrate::{Integrand, ScaleBias};
+use splitsum::model::{Diffuse, Masking, Microfacet, Ndf};
+use splitsum::study::bounds::{Plan, Search, check, everything, search};
+use splitsum::units::{SMALLEST_ALPHA, SMALLEST_COSINE};
+
+/// A search of a few seconds: so many rounds, whatever the time.
+const SHORT: Plan = Plan { seed: 5, starts: 24, steps: 3, rounds: 2, seconds: 0.0 };
+
+fn searched(plan: Plan, rules: &[(Microfacet, Rule)]) -> Search {
+    search(plan, rules, &[], &|_| ()).unwrap()
+}
+
+#[test]
+fn a_short_search_finds_every_bound_kept_with_its_margin() {
+    let all = everything();
+    let found = searched(SHORT, &all);
+    check(&found).unwrap();
+    for &(lobe, rule) in all.iter().filter(|(lobe, rule)| rule.bound(*lobe).is_finite()) {
+        let of =
+            |channel| found.findings.iter().find(|f| (f.rule, f.lobe, f.channel) == (rule.name, lobe.into(), channel));
+        for finding in ['A', 'B'].map(|channel| of(channel).unwrap()) {
+            assert!(finding.ratio() <= 1.0 / MARGIN && finding.ratio() > 0.0, "{finding:?}");
+        }
+    }
+}
+
+#[test]
+fn a_search_depends_on_nothing_but_its_seed() {
+    let rules = [(ggx(Masking::Joint), D6144), (ggx(Masking::Joint), H640)];
+    assert_eq!(searched(SHORT, &rules), searched(SHORT, &rules));
+    assert_ne!(searched(SHORT, &rules), searched(Plan { seed: 6, ..SHORT }, &rules));
+}
+
+#[test]
+fn a_bound_that_is_too_small_is_found_out() {
+    let lobe = ggx(Masking::HeightCorrelated);
+    for rule in [S2304, L4608, D10240, D6144, H640, REFERENCE] {
+        // Each is known to err by more than a fiftieth of its bound.
+        let small = rule.promising(rule.bound(lobe) / 50.0);
+        let error = check(&searched(SHORT, &[(lobe, small)])).unwrap_err();
+        assert_eq!(error.exit_code(), ExitCode::CheckFailed);
+        assert!(error.to_string().contains(rule.name), "{error}");
+        // The same places with a bound that holds: it is the bound that was found out.
+        check(&searched(SHORT, &[(lobe, rule.promising(MARGIN * rule.bound(lobe)))])).unwrap();
+    }
+    // What is no number keeps no bound: a rule that gives NaN for this lobe.
+    assert!(check(&searched(SHORT, &[(lobe, CLOSED_FORM.promising(1e300))])).is_err());
+}
+
+/// The share of its bound by which a rule errs in A or B, whichever is larger; infinite for what is no number.
+fn share(lobe: Microfacet, rule: &Rule, mu: f64, alpha: f64) -> f64 {
+    let at = |rule: &Rule| match splitsum::backend::cpu::bake_points(lobe, &[(mu, alpha)], rule)[..] {
+        [value] => value,
+        _ => ScaleBias { a: f64::NAN, b: f64::NAN },
+    };
+    let (value, truth) = (at(rule), at(&rule.yardstick()));
+    let bound = rule.errors_at(lobe, alpha, value);
+    let share = |value: f64, truth: f64, bound: f64| {
+        let error = (value - truth).abs();
+        if error.is_finite() { if error == 0.0 { 0.0 } else { error / bound } } else { f64::INFINITY }
+    };
+    share(value.a, truth.a, bound.a).max(share(value.b, truth.b, bound.b))
+}
+
+#[test]
+fn places_that_once_broke_a_bound_keep_it_for_every_lobe() {
+    let places = [
+        // Double exponential rules, spread over twenty decades of slopes.
+        (1.0, 1e-17),
+        (1.0, 1e-18),
+        (1.0, 1.2e-14),
+        (1.0, SMALLEST_ALPHA),
+        // GGX's tail is cut below 3e-11, and not above.
+        (1.0, 2.9e-11),
+        (1.0, 3.1e-11),
+        (0.99, 2.9e-11),
+        (1e-9, 2.9e-11),
+        // Rules over light directions with the joint term.
+        (4.1e-8, 1.0),
+        // Charlie's ring at the horizon, which the reference missed by 6e-3, and its far tail.
+        (1.915e-14, 2.853e-17),
+        (2.7e-30, 9.2e-19),
+        (5.3e-9, 2.66e-19),
+        (1.4e-7, 1.47e-14),
+        (1.03e-6, 1.0),
+        // Each of these was within a third of a bound, or beyond it.
+        (3.6e-4, 3.6e-5),
+        (9.1e-6, 8.1e-7),
+        (3.8e-11, 9.8e-6),
+        (0.158, 1.0),
+        (1.6e-29, 0.84),
+        // The domain's corners.
+        (SMALLEST_COSINE, SMALLEST_ALPHA),
+        (SMALLEST_COSINE, 1e-3),
+        (SMALLEST_COSINE, 1.0),
+        (0.0, SMALLEST_ALPHA),
+        (0.0, 1.0),
+        (1.0, 1.0),
+    ];
+    for (lobe, rule) in everything().into_iter().filter(|(lobe, rule)| rule.bound(*lobe).is_finite()) {
+        for (mu, alpha) in places.into_iter().filter(|&(mu, _)| mu > 0.0 || !lobe.diverges_at_grazing()) {
+            let share = share(lobe, &rule, mu, alpha);
+            assert!(share <= 1.0 / MARGIN, "{} of {lobe:?} errs by {share} of its bound at ({mu}, {alpha})", rule.name);
+        }
+    }
+}
+
+#[test]
+fn at_the_smallest_cosine_a_lobe_has_its_limit() {
+    // From n·v = 1e-30 to 0 an albedo moves by about n·v/α ln: 1e-10 of a lobe of the smallest α, nothing that counts elsewhere.
+    let integrator = REFERENCE.integrator();
+    for lobe in Microfacet::all().filter(|lobe| !lobe.diverges_at_grazing()) {
+        for alpha in [SMALLEST_ALPHA, 1e-9, 1e-3, 0.3, 1.0] {
+            let (near, limit) =
+                (integrator.integrate(lobe, SMALLEST_COSINE, alpha), integrator.integrate(lobe, 0.0, alpha));
+            let apart = (near.a - limit.a).abs().max((near.b - limit.b).abs()) / limit.e().max(1.0);
+            assert!(apart <= 1e-9, "{lobe:?} at alpha = {alpha:e}: {near:?}, in the limit {limit:?}");
+        }
+    }
+}
+
+#[test]
+fn rules_serve_for_the_lobes_that_are_named_and_for_no_other() {
+    let served = |rule: &Rule| Microfacet::all().filter(|lobe| rule.applies_to(*lobe)).count();
+    use Masking::{HeightCorrelated, Implicit, Joint, SchlickSmith, Separable};
+    for (masking, l_space, surrogate) in [
+        (HeightCorrelated, true, true),
+        (Separable, true, true),
+        (SchlickSmith, true, true),
+        (Joint, false, false),
+        (Implicit, true, false),
+    ] {
+        assert_eq!(
+            (L4608.applies_to(ggx(masking)), S2304.applies_to(ggx(masking))),
+            (l_space, surrogate),
+            "{masking:?}"
+        );
+    }
+    assert_eq!((served(&L4608), served(&S2304), served(&CLOSED_FORM)), (4, 3, 0));
+    for rule in RULES.iter().filter(|rule| !["closed-form", "l", "s"].iter().any(|kind| rule.name.starts_with(kind))) {
+        assert_eq!(served(rule), Microfacet::all().count(), "{}", rule.name);
+    }
+    assert!(RULES.iter().all(|rule| rule.applies_to(Integrand::Diffuse(Diffuse::Burley)) == (*rule == CLOSED_FORM)));
+}
+
+#[test]
+fn charlie_has_its_own_bounds() {
+    let lobe = |masking| Microfacet { ndf: Ndf::Charlie, masking };
+    let value = ScaleBias { a: 0.5, b: 0.1 };
+    let at = |rule: Rule, masking, alpha| rule.errors_at(lobe(masking), alpha, value).a;
+    // As sharp as any lobe's from roughness 0.07 up, less so below, and nothing of the coarser rules there.
+    assert_eq!((at(REFERENCE, Masking::Neubelt, 0.005), at(REFERENCE, Masking::Neubelt, 0.0048)), (1e-13, 2e-6));
+    assert_eq!((at(D10240, Masking::Neubelt, 0.005), at(D10240, Masking::Neubelt, 0.0048)), (6e-9, f64::INFINITY));
+    // Its own where the others' are finer, and another one where its fitted term lets the ring's tail be seen.
+    assert_eq!((H640.bound(lobe(Masking::Neubelt)), H640.bound(lobe(Masking::HeightCorrelated))), (5e-5, 6e-4));
+}
+
+#[test]
+fn views_below_the_smallest_are_refused_and_what_failed_is_baked() {
+    let folder = tempfile::tempdir().unwrap();
+    for min in ["1e-200", "5e-324", "9e-31"] {
+        for lobe in ["--model beckmann", "", "--lut diffuse"] {
+            let output = run(
+                &folder,
+                &format!("bake {lobe} --size 2x2 --x nov,edges,min={min} --y roughness,edges,min=0.9 -o n.exr"),
+            );
+            assert_eq!(output.status.code(), Some(4), "{min} {lobe}: {}", stderr(&output));
+            assert!(stderr(&output).contains("expected 0, or 1e-30 to 1"), "{}", stderr(&output));
+        }
+    }
+    for request in [
+        "--masking separable --size 5x7 --x nov,edges --y roughness,edges,min=4e-9 --precision f32",
+        "--size 2x2 --x nov,edges,min=1e-30 --y roughness,edges,min=5.1e-10",
+    ] {
+        let output = run(&folder, &format!("bake {request} --backend cpu -o r.exr"));
+        assert_eq!(output.status.code(), Some(0), "{request}: {}", stderr(&output));
+    }
+    assert_eq!(run(&folder, "chart bounds --seconds nan").status.code(), Some(4));
+}
+
+#[test]
+fn the_page_has_every_rule_and_what_it_says_holds() {
+    let page = include_str!("../docs/bounds.md");
+    let rows = page.lines().filter(|line| line.starts_with("| `"));
+    let share = |row: &str| row.trim_end_matches(" |").rsplit("| ").next().and_then(|share| share.parse::<f64>().ok());
+    assert!(rows.clone().all(|row| share(row).is_some_and(|share| share <= 1.0 / MARGIN)));
+    for rule in RULES.iter().filter(|rule| **rule != CLOSED_FORM) {
+        assert!(rows.clone().any(|row| row.starts_with(&format!("| `{}` | CPU |", rule.name))), "no {}", rule.name);
+    }
+    // Both software drivers were searched.
+    assert!(page.contains("| llvmpipe |") && page.contains("| SwiftShader Device |"));
+}
