@@ -22,20 +22,15 @@ pub enum Accuracy {
 }
 
 impl Accuracy {
-    /// Certified, in f32 with a tolerance that befits it and the lobe.
+    /// Certified, in f32 with a tolerance that befits it and the lobe: f64 by the rules that devices have keeps it.
     pub fn by_default(lut: &Lut, precision: Precision) -> Self {
-        Accuracy::Certified(default_tolerance(lut, precision))
+        Accuracy::Certified(precision.default_tolerance().max(Rule::sharpest_device_bound(lut.integrand())))
     }
 
-    /// Not certified, with a tolerance that befits the precision and the lobe.
+    /// Not certified, with a tolerance that befits the precision and that a device can keep of the table's integrand.
     pub fn uncertified(lut: &Lut, precision: Precision) -> Self {
-        Accuracy::Tolerance(default_tolerance(lut, precision))
+        Accuracy::Tolerance(precision.default_tolerance().max(Rule::device_tolerance(lut.integrand())))
     }
-}
-
-/// What befits the precision, but no less than a device can keep of the table's integrand.
-fn default_tolerance(lut: &Lut, precision: Precision) -> f64 {
-    precision.default_tolerance().max(Rule::device_tolerance(lut.integrand()))
 }
 
 /// A checked job.

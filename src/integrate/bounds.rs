@@ -33,8 +33,10 @@ pub struct Bounds {
     pub charlie_fitted: f64,
     /// Of Charlie from [`CHARLIE_LIMIT`] up.
     pub charlie_above_limit: f64,
-    /// What is promised of B besides, but of Charlie's below [`CHARLIE_LIMIT`].
+    /// What is promised of B besides, but of Charlie's.
     pub of_b: ShareOfB,
+    /// The same of Charlie from [`CHARLIE_LIMIT`] up.
+    pub of_b_of_charlie: ShareOfB,
 }
 
 /// A bound for every decade of B: a share of B and a floor.
@@ -77,6 +79,7 @@ impl Bounds {
             charlie_fitted: bound,
             charlie_above_limit: bound,
             of_b,
+            of_b_of_charlie: of_b,
         }
     }
 
@@ -102,7 +105,7 @@ impl Bounds {
         let (all, of_b) = match lobe.ndf {
             Ndf::Ggx | Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong => (self.over_domain(lobe), self.of_b),
             Ndf::Charlie if alpha < CHARLIE_LIMIT => (self.over_domain(lobe), ShareOfB::NONE),
-            Ndf::Charlie => (self.charlie_above_limit, self.of_b),
+            Ndf::Charlie => (self.charlie_above_limit, self.of_b_of_charlie),
         };
         (all * scale, of_b.at(b, scale).min(all * scale))
     }

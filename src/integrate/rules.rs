@@ -25,13 +25,13 @@ pub const H1536: Rule = h("h1536", [48, 16, 48, 16], Power::Four, [1e-7, 1e-7, 1
 pub const H6144: Rule = h("h6144", [96, 32, 96, 32], Power::Four, [3e-9, 5e-10, 2e-6, 1e-9], [3e-6, 3e-5]);
 
 /// Double exponential, the cheapest.
-pub const D6144: Rule = d("d6144", [64, 48], 5e-7, NONE, ShareOfB::of(1.5e-6, 1e-12));
+pub const D6144: Rule = d("d6144", [64, 48], [5e-7, NONE], [ShareOfB::of(1e-6, 1e-12), ShareOfB::of(1.5e-6, 1e-12)]);
 /// Double exponential: the last stage of certification before the reference.
-pub const D10240: Rule = d("d10240", [80, 64], 6e-9, NONE, ShareOfB::of(4e-8, 1e-12));
+pub const D10240: Rule = d("d10240", [80, 64], [6e-9, NONE], [ShareOfB::of(4e-8, 1e-12), ShareOfB::of(7e-8, 1e-12)]);
 /// The rule that tables are measured against.
-pub const REFERENCE: Rule = d("reference", [160, 150], 1e-13, 2e-6, ShareOfB::of(3e-12, 3e-24));
+pub const REFERENCE: Rule = d("reference", [160, 150], [1e-13, 2e-6], [ShareOfB::of(3e-12, 3e-24); 2]);
 /// The rule that tables by [`REFERENCE`] itself are measured against.
-pub(super) const FINER_REFERENCE: Rule = d("reference", [240, 220], 1e-13, 2e-6, ShareOfB::of(3e-12, 3e-24));
+pub(super) const FINER_REFERENCE: Rule = d("reference", [240, 220], [1e-13, 2e-6], [ShareOfB::of(3e-12, 3e-24); 2]);
 
 /// Over directions of light, the cheapest.
 pub const L288: Rule = l("l288", L288_NODES, 3e-5, ShareOfB::NONE);
@@ -60,20 +60,19 @@ const fn h(name: &'static str, nodes: [usize; 4], power: Power, bounds: [f64; 4]
     let rule = HSpaceRule { radial, azimuth, radial_horizon, azimuth_horizon, power };
     let [ggx, beckmann, beckmann_walter, blinn_phong] = bounds;
     let [charlie, charlie_fitted] = charlie;
-    let (charlie_above_limit, of_b) = (charlie, ShareOfB::NONE);
+    let (charlie_above_limit, none) = (charlie, Bounds::NONE);
     let bounds =
-        Bounds { ggx, beckmann, beckmann_walter, blinn_phong, charlie, charlie_fitted, charlie_above_limit, of_b };
+        Bounds { ggx, beckmann, beckmann_walter, blinn_phong, charlie, charlie_fitted, charlie_above_limit, ..none };
     Rule { name, method: Method::HSpace(rule), bounds }
 }
 
-/// A double exponential rule: as sharp for one lobe as for any other, but for Charlie below its limit.
-const fn d(name: &'static str, nodes: [usize; 2], bound: f64, charlie: f64, of_b: ShareOfB) -> Rule {
+/// A double exponential rule: as sharp for one lobe as for any other, but for Charlie below its limit and Charlie's B above it, whose
+/// bounds stand second.
+const fn d(name: &'static str, nodes: [usize; 2], bounds: [f64; 2], of_b: [ShareOfB; 2]) -> Rule {
     let rule = ReferenceRule { outer: nodes[0], inner: nodes[1] };
-    Rule {
-        name,
-        method: Method::Reference(rule),
-        bounds: Bounds { charlie, charlie_fitted: charlie, ..Bounds::same(bound, of_b) },
-    }
+    let ([bound, charlie], [of_b, of_b_of_charlie]) = (bounds, of_b);
+    let bounds = Bounds { charlie, charlie_fitted: charlie, of_b_of_charlie, ..Bounds::same(bound, of_b) };
+    Rule { name, method: Method::Reference(rule), bounds }
 }
 
 const fn l(name: &'static str, rule: LSpaceRule, bound: f64, of_b: ShareOfB) -> Rule {

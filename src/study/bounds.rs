@@ -7,7 +7,7 @@
 mod places;
 
 use self::places::{Place, Places};
-use super::{Lobe, Share};
+use super::{Lobe, Share, timed};
 use crate::backend::cpu;
 use crate::backend::vulkan::bake::bake;
 use crate::backend::vulkan::gpu::Gpu;
@@ -27,7 +27,7 @@ pub struct Plan {
     pub starts: usize,
     /// Steps of each rule and channel in a round.
     pub steps: usize,
-    /// Rounds of each hunt at the least.
+    /// Rounds of each hunt at the least, one after the other.
     pub rounds: usize,
     /// Seconds in all; what is left of them after those rounds goes to the hunts in turn.
     pub seconds: f64,
@@ -91,21 +91,24 @@ pub fn everything() -> Vec<(Microfacet, Rule)> {
 
 /// Searches the rules on the CPU, and those that run there on the devices.
 pub fn search(plan: Plan, rules: &[(Microfacet, Rule)], devices: &[Gpu], share: Share) -> Result<Search> {
-    let mut hunts = hunts(plan.seed, rules, devices);
-    let (start, count) = (Instant::now(), hunts.len() as f64);
-    let mut round = 0;
-    loop {
-        for (done, hunt) in hunts.iter_mut().enumerate() {
-            let spent = start.elapsed().as_secs_f64();
-            if round >= plan.rounds && spent > plan.seconds {
-                return Ok(found(hunts));
-            }
-            let rounds = (round as f64 + done as f64 / count) / plan.rounds as f64;
-            share(rounds.min(spent / plan.seconds).min(1.0));
-            hunt.round(plan)?;
+    let (mut hunts, start) = (hunts(plan.seed, rules, devices), Instant::now());
+    let rounds = plan.rounds * hunts.len();
+    for done in 0.. {
+        let spent = start.elapsed().as_secs_f64();
+        if done >= rounds && spent > plan.seconds {
+            break;
         }
-        round += 1;
+        share((done as f64 / rounds as f64).min(spent / plan.seconds).min(1.0));
+        // Whoever has had the fewest rounds of those that each is to have, then whoever has had the least time.
+        let order = |a: &&mut Hunt, b: &&mut Hunt| a.turn(plan).total_cmp(&b.turn(plan));
+        if let Some(hunt) = hunts.iter_mut().min_by(order) {
+            let (round, seconds) = timed(|| hunt.round(plan));
+            round?;
+            hunt.rounds += 1;
+            hunt.seconds += seconds;
+        }
     }
+    Ok(found(hunts))
 }
 
 /// Whether every bound holds with its margin: an error that names the worst that does not.
@@ -143,6 +146,8 @@ fn hunts<'a>(seed: u64, rules: &[(Microfacet, Rule)], devices: &'a [Gpu]) -> Vec
                         tracks: tracks.into(),
                         places,
                         points: 0,
+                        rounds: 0,
+                        seconds: 0.0,
                     });
                 }
             }
@@ -175,6 +180,9 @@ struct Hunt<'a> {
     tracks: Vec<Track<'a>>,
     places: Places,
     points: usize,
+    /// Rounds that it has had, and the seconds that they took.
+    rounds: usize,
+    seconds: f64,
 }
 
 /// A channel of a rule, by whom it is run, and where it has been worst.
@@ -200,6 +208,11 @@ const SUMMITS: usize = 5;
 const APART: f64 = 0.04;
 
 impl Hunt<'_> {
+    /// Smaller for whoever is to go first.
+    fn turn(&self, plan: Plan) -> f64 {
+        if self.rounds < plan.rounds { self.rounds as f64 - plan.rounds as f64 } else { self.seconds }
+    }
+
     fn round(&mut self, plan: Plan) -> Result<()> {
         let mut points: Vec<Place> = (0..plan.starts).map(|i| self.places.start(i)).collect();
         for track in &self.tracks {
