@@ -101,12 +101,12 @@ fn other_tables_are_those_of_the_cpu(gpu: &Gpu) -> Result<(), Failed> {
     });
     for lut in energy {
         let request =
-            Request::new(lut, axis("nov,edges"), axis("roughness,edges"), Accuracy::Tolerance(1e-6), Precision::F64)?;
+            Request::new(lut, axis("nov,edges"), axis("roughness,edges"), Accuracy::Tolerance(1.25e-6), Precision::F64)?;
         let [device, cpu] = [&device, &cpu].map(|backend| splitsum::bake(&request, backend, &|_| ()));
         let (device, cpu) = (device?.table.values, cpu?.table.values);
-        // Sums of A and B, each within 1e-6; the division by √(1-E_avg) is by 0.95 here.
+        // Sums of A and B, each within 1.25e-6; the division by √(1-E_avg) is by 0.95 here.
         let difference = Difference::between(device.iter().zip(cpu.iter()));
-        assert!(difference.max <= 2.2e-6, "{lut:?}: {difference:?}");
+        assert!(difference.max <= 2.7e-6, "{lut:?}: {difference:?}");
     }
     Ok(())
 }
