@@ -167,7 +167,7 @@ impl Axis {
             Mapping::SqrtComplement => "1 - t^2",
         };
         let min = self.spec.min;
-        let p = if min > 0.0 { format!("max({p}, {min})") } else { p.into() };
+        let p = if min > 0.0 { format!("max({p}, {min:?})") } else { p.into() };
         let p = if self.spec.parameter == Parameter::Exponent { format!("10^(7 ({p}))") } else { p };
         format!("{} = {p}, t = clamp({t}, 0, 1)", self.spec.parameter)
     }
@@ -243,7 +243,8 @@ impl fmt::Display for AxisSpec {
             write!(f, ",flip")?;
         }
         if self.min > 0.0 {
-            write!(f, ",min={}", self.min)?;
+            // Short where it has a hundred zeros.
+            write!(f, ",min={:?}", self.min)?;
         }
         Ok(())
     }

@@ -21,6 +21,7 @@ use crate::backend::{Backend, Progress, cpu};
 use crate::error::{Error, Result};
 use crate::integrate::h_space::HSpaceRule;
 use crate::integrate::rule::{Method, REFERENCE, Rule};
+use crate::integrate::rules::H288;
 use crate::lut::{Dfg, DfgChannels, Lut};
 use crate::model::{Microfacet, Ndf};
 use crate::precision::Precision;
@@ -76,7 +77,7 @@ pub const ROUGHNESSES: [f64; 6] = [0.15, 0.3, 0.45, 0.6, 0.8, 1.0];
 const TABLE: usize = 64;
 
 /// The rule of the furnace's integral: what it leaves is a hundredth of what the table's texels do.
-pub const RULE: &str = "h288";
+pub const RULE: Rule = H288;
 
 impl Row {
     /// The row, its table baked.
@@ -113,11 +114,10 @@ impl Row {
 
     /// Its spheres, with all that is read of them.
     fn spheres(&self) -> Result<Vec<Sphere>> {
-        let rule = Rule::named(RULE)?;
         let integrates = matches!(self.scene, Scene::FurnaceIntegral | Scene::FurnaceDifference);
         let sphere = |&column: &Column| -> Result<Sphere> {
             let table = Curve::of_table(&self.table, column.roughness);
-            let integral = integrates.then(|| Curve::of_integral(self.lobe, column.alpha, &rule)).transpose()?;
+            let integral = integrates.then(|| Curve::of_integral(self.lobe, column.alpha, &RULE)).transpose()?;
             Ok(Sphere { lobe: self.lobe, column, integral: integral.unwrap_or_else(|| table.clone()), table })
         };
         self.columns.iter().map(sphere).collect()
@@ -171,9 +171,9 @@ pub fn render(rows: &[Row], cell: usize, backend: &Backend, progress: Progress) 
 
 /// The nodes of [`RULE`], which a device integrates by.
 fn device_rule() -> Result<HSpaceRule> {
-    match Rule::named(RULE)?.method {
+    match RULE.method {
         Method::HSpace(rule) => Ok(rule),
-        _ => Err(Error::Internal(format!("{RULE} is no rule over half vectors"))),
+        _ => Err(Error::Internal(format!("{} is no rule over half vectors", RULE.name))),
     }
 }
 

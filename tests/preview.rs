@@ -3,7 +3,6 @@
 
 use splitsum::axis::{Axis, AxisSpec, Parameter};
 use splitsum::backend::cpu;
-use splitsum::integrate::rule::Rule;
 use splitsum::lut::{Dfg, DfgChannels, Grid, Lut};
 use splitsum::model::{Microfacet, Ndf};
 use splitsum::precision::Precision;
@@ -17,7 +16,7 @@ const HALF_A_STEP: f64 = 1.0 / (2.0 * 255.0 * 12.92 * 100.0);
 
 #[test]
 fn interpolated_integrals_are_within_half_a_step_of_the_difference() {
-    let rule = Rule::named(RULE).unwrap();
+    let rule = RULE;
     for ndf in [Ndf::BlinnPhong, Ndf::Beckmann, Ndf::Ggx] {
         let lobe = Microfacet { ndf, masking: ndf.default_masking() };
         for roughness in ROUGHNESSES {

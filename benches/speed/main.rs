@@ -14,6 +14,7 @@ use splitsum::certify::ziv::certify;
 use splitsum::integrate::ScaleBias;
 use splitsum::integrate::h_space::h_space;
 use splitsum::integrate::rule::{Method, REFERENCE, Rule};
+use splitsum::integrate::rules::D10240;
 use splitsum::lut::{Dfg, DfgChannels, Grid, Lut};
 use splitsum::model::{Masking, Microfacet, Ndf};
 use splitsum::precision::Precision;
@@ -89,7 +90,7 @@ fn tables() {
             }
         }
     }
-    let truth = cpu::bake(LOBE, &grid, &Rule::named("d10240").unwrap(), &|_| ());
+    let truth = cpu::bake(LOBE, &grid, &D10240, &|_| ());
     let mut times = vec![Vec::new(); works.len()];
     for _ in 0..ROUNDS {
         for (times, (_, work)) in times.iter_mut().zip(&works) {

@@ -48,7 +48,8 @@ pub struct TableArgs {
     pub size: Option<Size>,
     /// What runs along a row, for example nov,sqrt,edges: PARAMETER nov, roughness (perceptual), alpha or exponent (n = 10^(7p), Blinn-Phong's); then, where
     /// they differ from linear,centres: MAPPING linear, sqrt (t = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES
-    /// centres, edges (i/(N-1)) or offset=X ((i+X)/N); flip; min=X [default: nov]
+    /// centres, edges (i/(N-1)) or offset=X ((i+X)/N); flip; min=X. n.v is 0 or from 1e-30 to 1, roughness 0 or from
+    /// 5e-10 to 1 [default: nov]
     #[arg(long, value_name = "AXIS")]
     pub x: Option<String>,
     /// What runs from row to row, in the same words [default: roughness, or nov where x is a roughness]

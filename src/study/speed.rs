@@ -7,7 +7,8 @@ use crate::backend::cpu;
 use crate::backend::vulkan::gpu::Gpu;
 use crate::error::Result;
 use crate::integrate::ScaleBias;
-use crate::integrate::rule::{REFERENCE, Rule};
+use crate::integrate::rule::REFERENCE;
+use crate::integrate::rules::H6144;
 use crate::lut::Grid;
 use crate::model::Microfacet;
 use crate::precision::Precision;
@@ -208,7 +209,7 @@ impl Run<'_> {
             let errors = Errors::between(values.into_iter().zip(truth.iter().copied()));
             Floor { name: name.into(), error: errors.largest() }
         };
-        let finest = Step::Rule(Rule::named("h6144")?);
+        let finest = Step::Rule(H6144);
         let (single, double) =
             (finest.run(lobe, grid, Arithmetic::F32, plan.seed)?, finest.run(lobe, grid, Arithmetic::F64, plan.seed)?);
         let arithmetic = Errors::between(single.into_iter().zip(double)).largest();

@@ -100,8 +100,13 @@ fn other_tables_are_those_of_the_cpu(gpu: &Gpu) -> Result<(), Failed> {
         Lut::Energy(Energy::new(lobe, f0, channels).unwrap())
     });
     for lut in energy {
-        let request =
-            Request::new(lut, axis("nov,edges"), axis("roughness,edges"), Accuracy::Tolerance(1.25e-6), Precision::F64)?;
+        let request = Request::new(
+            lut,
+            axis("nov,edges"),
+            axis("roughness,edges"),
+            Accuracy::Tolerance(1.25e-6),
+            Precision::F64,
+        )?;
         let [device, cpu] = [&device, &cpu].map(|backend| splitsum::bake(&request, backend, &|_| ()));
         let (device, cpu) = (device?.table.values, cpu?.table.values);
         // Sums of A and B, each within 1.25e-6; the division by √(1-E_avg) is by 0.95 here.

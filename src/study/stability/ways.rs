@@ -2,7 +2,8 @@
 
 use crate::backend::rows::{Method, Work, bake_in, rows};
 use crate::integrate::ScaleBias;
-use crate::integrate::rule::{REFERENCE, Rule};
+use crate::integrate::rule::Rule;
+use crate::integrate::rules::{H640, L512};
 use crate::lanes::{Lanes, Real, Singles};
 use crate::lut::Grid;
 use crate::model::{Masking, Microfacet, Ndf};
@@ -28,7 +29,7 @@ enum How {
     /// A sampler in f32.
     Samples(Sampler, PointSet, usize),
     /// A rule in f32.
-    Rule(&'static str),
+    Rule(Rule),
     /// What summing so many samples adds: one by one, or in blocks.
     Sum(usize, Summed),
 }
@@ -52,8 +53,8 @@ pub const METHODS: [Way; 7] = [
     Way { name: "half vectors by D", how: How::Samples(Sampler::HalfVector, PointSet::Hammersley, 1024) },
     Way { name: "visible normals", how: How::Samples(Sampler::Visible, PointSet::Hammersley, 1024) },
     Way { name: "bounded caps, Gauss", how: How::Samples(Sampler::BoundedVisible, PointSet::GaussTrapezoid, 1024) },
-    Way { name: "l-space, l512", how: How::Rule("l512") },
-    Way { name: "h-space, h640", how: How::Rule("h640") },
+    Way { name: "l-space, l512", how: How::Rule(L512) },
+    Way { name: "h-space, h640", how: How::Rule(H640) },
 ];
 
 /// Sums of 65,536 samples.
@@ -72,10 +73,7 @@ impl Way {
             How::Samples(sampler, set, count) => {
                 bake_in::<Singles>(GGX, grid, Work::Samples(sampler, &set.points(count, 0)))
             }
-            How::Rule(name) => {
-                let integrator = Rule::named(name).unwrap_or(REFERENCE).integrator();
-                bake_in::<Singles>(GGX, grid, Work::Rule(&integrator))
-            }
+            How::Rule(rule) => bake_in::<Singles>(GGX, grid, Work::Rule(&rule.integrator())),
             How::Sum(count, summed) => sum(grid, truth, &hammersley(count), summed),
         }
     }
