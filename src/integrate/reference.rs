@@ -76,22 +76,12 @@ pub fn reference<R: Real>(lobe: Microfacet, mu: R, alpha: R, nodes: &ReferenceNo
     };
     let view = View { lobe, mu, smu: lobe.masking_smith(mu, alpha), sv, alpha, width, low, high, centre, unit };
     let inner = if lobe.ndf.smooth_at_normal() { &nodes.inner } else { &nodes.inner_with_cusp };
-    let mirror = zero.least(last);
-    match lobe.break_at(alpha) {
-        None => {
-            let mut sum = view.piece(first, mirror, &nodes.outer, inner);
-            sum.add(R::from(1.0), view.piece(mirror, last, &nodes.outer, inner));
-            sum
+    // Of sheen the map alone is another: it is compiled apart, so that the other lobes pay nothing for it.
+    match lobe.ndf {
+        Ndf::Ggx | Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong => {
+            view.pieces::<false>(first, last, lobe.break_at(alpha), &nodes.outer, inner)
         }
-        Some(x) => {
-            let middle = ((x - mu) / (sv + (x.complement() * (x + 1.0)).sqrt())).most(first).least(last);
-            let mut sum = ScaleBias::zero();
-            // One of the two inner ends is the mirror direction, the other the break.
-            for ends in [first, middle.least(mirror), middle.most(mirror), last].windows(2) {
-                sum.add(R::from(1.0), view.piece(ends[0], ends[1], &nodes.outer, inner));
-            }
-            sum
-        }
+        Ndf::Charlie => view.pieces::<true>(first, last, lobe.break_at(alpha), &nodes.outer, inner),
     }
 }
 
@@ -130,10 +120,42 @@ struct View<R> {
 }
 
 impl<R: Real> View<R> {
+    /// The pieces from `first` to `last`, which meet at the mirror direction and at the break.
+    #[inline(always)]
+    fn pieces<const SHEEN: bool>(
+        &self,
+        first: R,
+        last: R,
+        break_at: Option<R>,
+        outer: &[DeNode],
+        inner: &[(f64, f64)],
+    ) -> ScaleBias<R> {
+        let zero = R::from(0.0);
+        let mirror = zero.least(last);
+        match break_at {
+            None => {
+                let mut sum = self.piece::<SHEEN>(first, mirror, outer, inner);
+                sum.add(R::from(1.0), self.piece::<SHEEN>(mirror, last, outer, inner));
+                sum
+            }
+            Some(x) => {
+                let slope = (x - self.mu) / (self.sv + (x.complement() * (x + 1.0)).sqrt());
+                let middle = slope.most(first).least(last);
+                let mut sum = ScaleBias::zero();
+                // One of the two inner ends is the mirror direction, the other the break.
+                for ends in [first, middle.least(mirror), middle.most(mirror), last].windows(2) {
+                    sum.add(R::from(1.0), self.piece::<SHEEN>(ends[0], ends[1], outer, inner));
+                }
+                sum
+            }
+        }
+    }
+
     /// The share of E of the slopes from `start` to `end`; nothing where they are the same.
     #[inline(always)]
-    fn piece(&self, start: R, end: R, outer: &[DeNode], inner: &[(f64, f64)]) -> ScaleBias<R> {
-        let asinh = |t: R| (t - self.centre).zip(self.unit, |t, unit| libm::asinh(t / unit));
+    fn piece<const SHEEN: bool>(&self, start: R, end: R, outer: &[DeNode], inner: &[(f64, f64)]) -> ScaleBias<R> {
+        let (centre, unit) = if SHEEN { (self.centre, self.unit) } else { (R::from(0.0), self.width) };
+        let asinh = |t: R| (if SHEEN { t - centre } else { t }).zip(unit, |t, unit| libm::asinh(t / unit));
         let (r0, r1) = (asinh(start), asinh(end));
         let length = r1 - r0;
         let mut sum = ScaleBias::zero();
@@ -141,12 +163,13 @@ impl<R: Real> View<R> {
             // The nearer end decides how r is written, so that the distance to it in T has no cancellation.
             let (from_start, to_end) = (length * node.from_start, length * node.to_end);
             let r = from_start.select_below(to_end, r0 + from_start, r1 - to_end);
-            let gap = |d: R, middle: R| self.unit * 2.0 * middle.zip(d, |m, d| libm::cosh(m) * libm::sinh(0.5 * d));
+            let gap = |d: R, middle: R| unit * 2.0 * middle.zip(d, |m, d| libm::cosh(m) * libm::sinh(0.5 * d));
             let from_low = (start + self.low) + gap(from_start, r0 + from_start * 0.5);
             let to_high = (self.high - end) + gap(to_end, r1 - to_end * 0.5);
-            let slope = self.centre + self.unit * r.zip(r, |r, _| libm::sinh(r));
+            let offset = unit * r.zip(r, |r, _| libm::sinh(r));
+            let slope = if SHEEN { centre + offset } else { offset };
             let value = self.plane(slope, from_low, to_high, inner);
-            sum.add(length * node.weight * self.unit * r.zip(r, |r, _| libm::cosh(r)), value);
+            sum.add(length * node.weight * unit * r.zip(r, |r, _| libm::cosh(r)), value);
         }
         sum.where_positive(length)
     }
