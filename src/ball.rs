@@ -18,7 +18,12 @@ pub struct Ball {
 /// The bound rounded up: sums and products of a few errors, each rounded to nearest, err by less than 8 units in the last place.
 fn outward(error: f64) -> f64 {
     const EIGHT_UNITS: f64 = 8.0 * f64::EPSILON;
-    if error == 0.0 { 0.0 } else { (error + error * EIGHT_UNITS).next_up() }
+    match error {
+        0.0 => 0.0,
+        // Of 0 times what has no bound nothing is known.
+        _ if error.is_nan() => f64::INFINITY,
+        _ => (error + error * EIGHT_UNITS).next_up(),
+    }
 }
 
 /// What a product, quotient or root may have rounded away below the smallest normal numbers, where a fused multiply-add cannot

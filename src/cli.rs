@@ -60,8 +60,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let command = Cli::command().after_help(&codes).mut_subcommands(|command| {
         let takes_models = ["bake", "chart", "furnace"].contains(&command.get_name());
         let command = command.mut_subcommands(|command| {
-            let of_one_lobe = command.get_name() == "stability";
-            command.after_help(if of_one_lobe { &codes } else { &models })
+            let names_no_model = ["stability", "bounds"].contains(&command.get_name());
+            command.after_help(if names_no_model { &codes } else { &models })
         });
         command.after_help(if takes_models { &models } else { &codes })
     });

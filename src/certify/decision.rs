@@ -51,7 +51,9 @@ impl Task<'_> {
     ) -> f64 {
         let mut worst = 0.0f64;
         for (stored, channel) in values.iter_mut().zip(self.lut.values(mu, integral, average)) {
-            worst = worst.max(channel.error / channel.value.abs().max(1.0));
+            // A division is dear, and values above 1 are few.
+            let size = channel.value.abs();
+            worst = worst.max(if size > 1.0 { channel.error / size } else { channel.error });
             *stored = self.stored(channel.value);
         }
         worst

@@ -154,10 +154,11 @@ impl Verdict {
 }
 
 /// A stage as texels are decided by it.
-struct Decider<'a> {
+struct Decider<'a, E> {
     task: &'a Task<'a>,
     averages: &'a [ScaleBias<Ball>],
-    errors_at: &'a ErrorsAt<'a>,
+    /// What the stage's A and B may be off, by its own type: it is asked at every texel.
+    errors_at: E,
     /// Twice the error of this rule is kept as a margin.
     margin: Option<Rule>,
     /// Whether mirrors are in f64, and err by no more than its arithmetic.
@@ -165,7 +166,7 @@ struct Decider<'a> {
     rounds_correctly: bool,
 }
 
-impl Decider<'_> {
+impl<E: Fn(f64, ScaleBias) -> ScaleBias + Sync> Decider<'_, E> {
     /// The integral at (n·v, α) with what it may be off.
     fn integral(&self, mu: f64, alpha: f64, value: ScaleBias) -> ScaleBias<Ball> {
         let integrand = self.task.lut.integrand();
@@ -347,7 +348,12 @@ impl Run<'_> {
     }
 
     /// Takes over what these integrals decide, and the best guess where they do not; tells how many texels they do.
-    fn decide(&mut self, texels: &Texels, integrals: &[ScaleBias], decider: &Decider) -> usize {
+    fn decide(
+        &mut self,
+        texels: &Texels,
+        integrals: &[ScaleBias],
+        decider: &Decider<impl Fn(f64, ScaleBias) -> ScaleBias + Sync>,
+    ) -> usize {
         let (channels, width) = (self.channels, self.task.grid.mus.len());
         let verdict = match texels {
             Texels::All(_) => {
