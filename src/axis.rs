@@ -1,7 +1,8 @@
-//! An axis of a table: which parameter, through which mapping, at which nodes. The only half-texel arithmetic in the crate.
+//! An axis of a table: which parameter, through which mapping, at which nodes. The only half-texel arithmetic in the
+//! crate.
 //!
-//! Texel i of N lies at t = (i + offset)/N (centres: offset ½) or t = i/(N-1) (edges), clamped to [0, 1]; a flipped axis
-//! counts its texels from the other end; the mapping carries t to the parameter.
+//! Texel i of N lies at t = (i + offset)/N (centres: offset ½) or t = i/(N-1) (edges), clamped to [0, 1]; a flipped
+//! axis counts its texels from the other end; the mapping carries t to the parameter.
 
 use crate::error::{Error, Result};
 use crate::units::{Alpha, Cosine, PerceptualRoughness};

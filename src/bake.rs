@@ -1,5 +1,5 @@
-//! From a request to a table: who computes it, how, and what is checked before it comes back. A table is baked in bands of rows of
-//! one α each, so that no more memory is taken than its own bytes and a band's numbers.
+//! From a request to a table: who computes it, how, and what is checked before it comes back. A table is baked in
+//! bands of rows of one α each, so that no more memory is taken than its own bytes and a band's numbers.
 
 mod choice;
 mod integration;
@@ -17,8 +17,8 @@ use crate::certify::ziv::{DeviceTable, certify_band};
 use crate::error::{Error, Result};
 use crate::integrate::ScaleBias;
 use crate::integrate::rule::Rule;
-use crate::lut::Grid;
 use crate::lut::sheet::Sheet;
+use crate::lut::{Grid, Lut};
 use crate::report::{self, Computed, Report, Seconds};
 use crate::request::{Accuracy, Request};
 use crate::table::{Provenance, Table};
@@ -35,11 +35,11 @@ pub struct Baked {
     pub report: Report,
 }
 
-/// Texels of a band: its numbers take some 60 MiB, and fill any number of cores.
+/// Texels of a band: its numbers take at most 96 MiB ([`working_bytes`]), and fill any number of cores.
 const BAND: usize = 1 << 20;
 
-/// Bytes that baking so many texels may take besides the table: of each texel of a band the integrals of two stages and of a
-/// device, its values and whether it is decided.
+/// Bytes that baking so many texels may take besides the table: of each texel of a band the integrals of two stages
+/// and of a device, its values and whether it is decided.
 pub fn working_bytes(texels: usize) -> usize {
     texels.min(BAND) * 96
 }
@@ -174,15 +174,8 @@ impl Job<'_> {
                 true => integration.averages(&band)?,
                 false => vec![ScaleBias::<Ball>::default(); band.alphas.len()],
             };
-            let mut values = Vec::with_capacity(points.len() * lut.channels().len());
-            for (i, &integral) in points.iter().enumerate() {
-                let integral = integration.within_bound(integral, 0.0);
-                let channels = lut.values(band.point(i).0, integral, averages[i / band.mus.len()]);
-                for channel in channels.into_iter().take(lut.channels().len()) {
-                    bound = bound.max(channel.error / channel.value.abs().max(1.0));
-                    values.push(request.precision.pulled_in(channel.value, channel.error));
-                }
-            }
+            let (values, error) = self.channels(&integration, &band, &points, &averages);
+            bound = bound.max(error);
             sheet.put(first, &values);
         }
         if !bound.is_finite() {
@@ -199,6 +192,33 @@ impl Job<'_> {
             rounding: request.precision.half_step(),
         };
         Ok(Outcome { worth: report::Worth::Uncertified { accuracy }, seconds, device_seconds })
+    }
+}
+
+impl Job<'_> {
+    /// The values of a band that is not certified, and the most that one of them may be off: of values above 1
+    /// relative.
+    fn channels(
+        &self,
+        integration: &Integration,
+        band: &Grid,
+        points: &[ScaleBias],
+        averages: &[ScaleBias<Ball>],
+    ) -> (Vec<f64>, f64) {
+        let Request { lut, precision, .. } = self.request;
+        // No channel is negative. Where none is above 1 either, an estimate that is, is nearer to the truth at 1.
+        let at_most_one = matches!(lut, Lut::Dfg(_)) && !integration.integrand.may_exceed_one();
+        let count = lut.channels().len();
+        let (mut values, mut worst) = (Vec::with_capacity(points.len() * count), 0.0f64);
+        for (i, &integral) in points.iter().enumerate() {
+            let integral = integration.within_bound(integral, 0.0);
+            let channels = lut.values(band.point(i).0, integral, averages[i / band.mus.len()]);
+            for Ball { value, error } in channels.into_iter().take(count) {
+                worst = worst.max(error / value.abs().max(1.0));
+                values.push(precision.pulled_in(value, error, if at_most_one { error } else { 0.0 }));
+            }
+        }
+        (values, worst)
     }
 }
 

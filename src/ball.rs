@@ -1,8 +1,9 @@
 //! A number with a bound of its error, which every step of arithmetic carries on: running error analysis.
 //!
-//! What a step rounds away is computed, not estimated: of a sum by Knuth's TwoSum, of a product, quotient or root by a fused
-//! multiply-add (Ogita, Rump and Oishi 2005). So a step that rounds nothing adds nothing, and only what is exact has the error 0.
-//! Higham, "Accuracy and Stability of Numerical Algorithms", 2002, section 3.3; the interval around a midpoint is a ball.
+//! What a step rounds away is computed, not estimated: of a sum by Knuth's TwoSum, of a product, quotient or root by
+//! a fused multiply-add (Ogita, Rump and Oishi 2005). So a step that rounds nothing adds nothing, and only what is
+//! exact has the error 0. Higham, "Accuracy and Stability of Numerical Algorithms", 2002, section 3.3; the interval
+//! around a midpoint is a ball.
 
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -15,7 +16,8 @@ pub struct Ball {
     pub error: f64,
 }
 
-/// The bound rounded up: sums and products of a few errors, each rounded to nearest, err by less than 8 units in the last place.
+/// The bound rounded up: sums and products of a few errors, each rounded to nearest, err by less than 8 units in the
+/// last place.
 fn outward(error: f64) -> f64 {
     const EIGHT_UNITS: f64 = 8.0 * f64::EPSILON;
     match error {
@@ -26,8 +28,8 @@ fn outward(error: f64) -> f64 {
     }
 }
 
-/// What a product, quotient or root may have rounded away below the smallest normal numbers, where a fused multiply-add cannot
-/// tell: nothing where one of the factors is 0.
+/// What a product, quotient or root may have rounded away below the smallest normal numbers, where a fused
+/// multiply-add cannot tell: nothing where one of the factors is 0.
 fn underflow(value: f64) -> f64 {
     // Residues of anything above this are normal numbers, and exact.
     const SAFE: f64 = 1e-290;
@@ -122,6 +124,6 @@ impl Div for Ball {
         // |x/y - q| = |x - q y| / |y|.
         let residue = (-value).mul_add(b, a).abs() + underflow(a);
         let error = (residue + self.error + value.abs() * other.error) / least;
-        Ball { value, error: outward(outward(error)) }
+        Ball { value, error: outward(error) }
     }
 }

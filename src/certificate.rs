@@ -15,7 +15,7 @@ pub struct Certificate {
     pub decided_before_reference: usize,
     /// How many lay so near a boundary of rounding that the double-exponential reference had to decide them.
     pub decided_by_reference: usize,
-    /// How many are left.
+    /// How many are not known to be rounded correctly: all, where values are stored within a tolerance.
     pub undecided: usize,
     /// What the reference may be off, at the most; of albedos above 1 relative.
     pub reference_error: f64,

@@ -1,5 +1,5 @@
-//! The command line: flags and configurations become requests; files are read and written, and people are talked to, here
-//! and nowhere else.
+//! The command line: flags and configurations become requests; files are read and written, and people are talked to,
+//! here and nowhere else.
 
 mod bake;
 mod chart;
@@ -26,7 +26,8 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
 use std::io::Write;
 
-/// Bakes preintegrated BRDF lookup tables on Vulkan compute or the CPU, checks them, and says how far each is from the truth.
+/// Bakes preintegrated BRDF lookup tables on Vulkan compute or the CPU, checks them, and says how far each is from
+/// the truth.
 #[derive(Parser)]
 #[command(name = "splitsum", version, arg_required_else_help = true)]
 struct Cli {

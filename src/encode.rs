@@ -71,7 +71,8 @@ pub fn encode(tables: &[Table], format: Format) -> Result<Vec<u8>> {
     Ok(file.into_inner())
 }
 
-/// The stored bytes of red (0), green (1) or blue (2) of a texel, little-endian; of a channel that the table has not, zeros.
+/// The stored bytes of red (0), green (1) or blue (2) of a texel, little-endian; of a channel that the table has not,
+/// zeros.
 fn texel_bytes<const N: usize>(table: &Table, i: usize, j: usize, channel: usize) -> [u8; N] {
     let channels = table.channels.len();
     if channel >= channels {

@@ -1,6 +1,6 @@
-//! The white furnace: a surface under light from everywhere, radiance 1. A material that keeps its energy gives back 1 at
-//! every angle and roughness; this tells what a combination of specular lobe, multiple scattering, diffuse base and split
-//! gives back instead.
+//! The white furnace: a surface under light from everywhere, radiance 1. A material that keeps its energy gives back
+//! 1 at every angle and roughness; this tells what a combination of specular lobe, multiple scattering, diffuse base
+//! and split gives back instead.
 
 use crate::backend::cpu;
 use crate::error::{Error, Result};
@@ -110,7 +110,8 @@ pub fn furnaces(material: Material, f0s: &[f64], splits: &[Split], grid: &Grid, 
         return Err(Error::bad_input("diffuse", "lambert, on which the reciprocal split stands", word(base), cure));
     }
     let points = cpu::bake(lobe, grid, rule, &|_| ());
-    // The averages that a table would carry, and for the integral over light other nodes, so that it closes honestly or not.
+    // The averages that a table would carry, and for the integral over light other nodes, so that it closes honestly
+    // or not.
     let (averaging, light) = (average_nodes(), light_nodes());
     let over = |nodes: &[(f64, f64)]| {
         let directions = grid.at_directions(nodes.iter().map(|node| node.0).collect());

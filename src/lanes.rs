@@ -1,7 +1,8 @@
-//! Numbers side by side: the formulas are written once, for one f64, for eight texels in a CPU's vector registers, or for sixteen
-//! in f32.
+//! Numbers side by side: the formulas are written once, for one f64, for eight texels in a CPU's vector registers, or
+//! for sixteen in f32.
 //!
-//! Every operation acts on each lane alone and rounds as IEEE 754 says, so that a lane holds the same bits as the scalar would.
+//! Every operation acts on each lane alone and rounds as IEEE 754 says, so that a lane holds the same bits as the
+//! scalar would.
 
 use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};

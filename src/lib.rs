@@ -37,9 +37,9 @@
 //! - [`chart`]: charts of a study
 //! - `cli`: flags and configurations to requests; files and terminals
 //!
-//! What is absent, and kept absent by `tests/tidy.rs`: models know no tables; backends know no files; encoders know only
-//! tables; nothing but `cli` touches the disk or prints; `unsafe` stands in `backend/vulkan` alone; every WGSL function
-//! has a Rust twin of the same name.
+//! What is absent, and kept absent by `tests/tidy.rs`: models know no tables; backends know no files; encoders know
+//! only tables; nothing but `cli` touches the disk or prints; `unsafe` stands in `backend/vulkan` alone; every WGSL
+//! function has a Rust twin of the same name.
 //!
 //! ```
 //! use splitsum::{backend::Backend, lut::{Dfg, DfgChannels, Lut}, model::{Masking, Microfacet, Ndf}};

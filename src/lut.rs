@@ -111,8 +111,9 @@ impl Lut {
         }
     }
 
-    /// The values of the channels of a texel at n·v = `mu`, the first as many as there are channels, from its integral and its
-    /// row's average: each with what it may be off, by the errors of both and by the formula's own arithmetic.
+    /// The values of the channels of a texel at n·v = `mu`, the first as many as there are channels, from its
+    /// integral and its row's average: each with what it may be off, by the errors of both and by the formula's own
+    /// arithmetic.
     pub fn values(&self, mu: f64, integral: ScaleBias<Ball>, average: ScaleBias<Ball>) -> [Ball; 3] {
         match self {
             Lut::Dfg(dfg) => dfg.channels.values(integral),
@@ -183,7 +184,8 @@ impl Grid {
         Grid { mus: self.mus.clone(), alphas, transposed: self.transposed }
     }
 
-    /// These values, as many for each point as there are channels and in the order of the points, as a table stores them.
+    /// These values, as many for each point as there are channels and in the order of the points, as a table stores
+    /// them.
     pub fn stored(&self, lut: &Lut, precision: Precision, values: &[f64]) -> Result<Stored> {
         let mut sheet = Sheet::new(lut, self, precision)?;
         sheet.put(0, values);

@@ -1,7 +1,8 @@
 //! Microfacet models: a distribution of normals, a masking term, Fresnel. Closed forms with their citations, no tables.
 //!
-//! A specular lobe is f(l, v) = F D G / (4 n·l n·v). The integrals need it split otherwise: the distribution as a density
-//! of slopes y = tan(θ_h)/width, which stays smooth as α → 0, and n·l V = G / (4 n·v), which is finite at n·v = 0.
+//! A specular lobe is f(l, v) = F D G / (4 n·l n·v). The integrals need it split otherwise: the distribution as a
+//! density of slopes y = tan(θ_h)/width, which stays smooth as α → 0, and n·l V = G / (4 n·v), which is finite at n·v
+//! = 0.
 
 pub mod fresnel;
 pub mod ggx;

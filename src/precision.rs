@@ -23,9 +23,9 @@ pub enum Precision {
 impl Precision {
     /// The tolerance when none is given.
     ///
-    /// f16: 2^-16 is a sixteenth of half a step of binary16 in [1/2, 1), 2^-12: storing the number then costs sixteen times
-    /// what integrating it does. f32 and f64: the least that f32 arithmetic on a device can promise. unorm: as for f16, a
-    /// sixteenth of half a step or that least, whichever is more.
+    /// f16: 2^-16 is a sixteenth of half a step of binary16 in [1/2, 1), 2^-12: storing the number then costs sixteen
+    /// times what integrating it does. f32 and f64: the least that f32 arithmetic on a device can promise. unorm: as
+    /// for f16, a sixteenth of half a step or that least, whichever is more.
     pub fn default_tolerance(self) -> f64 {
         match self {
             Precision::F16 => 1.0 / 65536.0,
@@ -63,23 +63,24 @@ impl Precision {
         (low..=high).contains(&nearest)
     }
 
-    /// The value nearest to `value`, ties to even, of those that it would hold if its range had no end: beyond the range
-    /// unorms go on in their steps, and floats are infinite.
+    /// The value nearest to `value`, ties to even, of those that it would hold if its range had no end: beyond the
+    /// range unorms go on in their steps, and floats are infinite.
     #[inline]
     pub fn nearest(self, value: f64) -> f64 {
         match self {
             Precision::F16 => half::nearest(value),
             Precision::F32 => f64::from(value as f32),
             Precision::F64 => value,
-            Precision::Unorm16 => (value * 65535.0).round_ties_even() / 65535.0,
-            Precision::Unorm8 => (value * 255.0).round_ties_even() / 255.0,
+            Precision::Unorm16 => steps(value, 65535.0) / 65535.0,
+            Precision::Unorm8 => steps(value, 255.0) / 255.0,
         }
     }
 
-    /// `value`, or the nearer end of the range where it lies outside by no more than `slack`, the error that it may have.
-    pub fn pulled_in(self, value: f64, slack: f64) -> f64 {
+    /// `value`, or the nearer end of the range where it lies no more than so much `below` or `above` it: for
+    /// estimates of what does not leave the range.
+    pub fn pulled_in(self, value: f64, below: f64, above: f64) -> f64 {
         let (low, high) = self.range();
-        let near = value >= low - slack && value <= high + slack;
+        let near = value >= low - below && value <= high + above;
         if near { value.clamp(low, high) } else { value }
     }
 
@@ -109,8 +110,8 @@ impl Precision {
             Precision::F16 => bytes.copy_from_slice(&half::round(value).to_le_bytes()),
             Precision::F32 => bytes.copy_from_slice(&(value as f32).to_le_bytes()),
             Precision::F64 => bytes.copy_from_slice(&value.to_le_bytes()),
-            Precision::Unorm16 => bytes.copy_from_slice(&((value * 65535.0).round_ties_even() as u16).to_le_bytes()),
-            Precision::Unorm8 => bytes.copy_from_slice(&[(value * 255.0).round_ties_even() as u8]),
+            Precision::Unorm16 => bytes.copy_from_slice(&(steps(value, 65535.0) as u16).to_le_bytes()),
+            Precision::Unorm8 => bytes.copy_from_slice(&[steps(value, 255.0) as u8]),
         }
     }
 
@@ -138,4 +139,16 @@ impl Precision {
             Precision::Unorm8 => 1,
         }
     }
+}
+
+/// The whole number nearest to `value` times `count`, ties to even. The product is rounded itself, and that can only
+/// make a tie of what is none: then what was rounded away tells the side.
+fn steps(value: f64, count: f64) -> f64 {
+    let product = value * count;
+    let whole = product.round_ties_even();
+    if (product - whole).abs() != 0.5 {
+        return whole;
+    }
+    let residue = value.mul_add(count, -product);
+    if residue == 0.0 { whole } else { product + 0.5 * residue.signum() }
 }

@@ -1,14 +1,17 @@
 //! Spheres that show what tables and lobes look like: a row for each lobe, a column for each roughness.
 //!
-//! *Punctual.* A light without extent, and the rendering equation of games: L = (c_diff + π D V F) ⊗ c_light (n·l), where c_light
-//! is the radiance that a white Lambertian surface facing the light sends out. That is the convention which makes the π go:
-//! L = f E with irradiance E = π c_light n·l, so that c_diff/π and D V F are both times π. With Blinn-Phong's D and V = 1/4,
-//! π D V F is (n+2)/8 (n·h)^n F (Hoffman 2013).
+//! *Punctual.* A light without extent, and the rendering equation of games: L = (c_diff + π D V F) ⊗ c_light (n·l),
+//! where c_light
+//! is the radiance that a white Lambertian surface facing the light sends out. That is the convention which makes the
+//! π go: L = f E with irradiance E = π c_light n·l, so that c_diff/π and D V F are both times π. With Blinn-Phong's D
+//! and V = 1/4, π D V F is (n+2)/8 (n·h)^n F (Hoffman 2013).
 //!
-//! *Furnace.* Light from everywhere: a gold sphere by the split sum with a baked table, by the integral itself, and their
+//! *Furnace.* Light from everywhere: a gold sphere by the split sum with a baked table, by the integral itself, and
+//! their
 //! difference times 100.
 //!
-//! *Sky.* L(y) = s0 + s1 P1(y) + s2 P2(y) of the height y of a direction. Prefiltering it by a kernel around a direction scales
+//! *Sky.* L(y) = s0 + s1 P1(y) + s2 P2(y) of the height y of a direction. Prefiltering it by a kernel around a
+//! direction scales
 //! s1 and s2 by the kernel's means of P1 and P2 (Funk and Hecke), so that both factors of the split sum are exact.
 
 pub mod curve;

@@ -35,7 +35,8 @@ pub struct Accuracy {
     pub rule: &'static str,
     /// Evaluations of the integrand for a texel, on the average.
     pub evaluations: f64,
-    /// The largest absolute error of A and of B: that of the rule and of the arithmetic.
+    /// The largest error of a value before it is stored, by the rule, the arithmetic, averages and the channel's
+    /// formula; of values above 1 relative.
     pub bound: f64,
     /// How far a device was from the CPU, by the same rule in f64.
     pub cross_check: Option<Deviation>,

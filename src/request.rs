@@ -76,12 +76,12 @@ impl Request {
                 }
             }
             Accuracy::Rule(rule) => {
-                if !rule.applies_to(integrand) {
+                if !rule.applies_to(integrand) || rule.bound(integrand).is_infinite() {
                     return Err(Error::bad_input(
                         "rule",
-                        "one that can integrate the model",
+                        "one that serves for the model over the whole domain",
                         rule.name,
-                        "choose a rule whose name begins with h, or closed-form for a diffuse lobe",
+                        "choose reference, a rule whose name begins with h, or closed-form for a diffuse lobe",
                     ));
                 }
             }

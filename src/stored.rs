@@ -20,21 +20,6 @@ impl Stored {
         Ok(Stored { precision, bytes })
     }
 
-    /// These values, each rounded to the nearest; an error where one cannot be held.
-    pub fn of(precision: Precision, values: &[f64]) -> Result<Self> {
-        let mut stored = Stored::zeros(precision, values.len())?;
-        for (&value, bytes) in values.iter().zip(stored.bytes.chunks_exact_mut(precision.bytes())) {
-            let nearest = precision.nearest(value);
-            if !precision.holds(nearest) {
-                let (low, high) = precision.range();
-                let expected = format!("values from {low} to {high}");
-                return Err(Error::bad_input("precision", expected, value.to_string(), "choose f16 or f32"));
-            }
-            precision.write(nearest, bytes);
-        }
-        Ok(stored)
-    }
-
     /// How they are stored.
     pub fn precision(&self) -> Precision {
         self.precision

@@ -82,8 +82,8 @@ impl From<&DeviceInfo> for Device {
     }
 }
 
-/// How far (A, B) are from the truth: the largest error and the root of the mean square, of A and of B. Absolute, but of
-/// albedos above 1 relative.
+/// How far (A, B) are from the truth: the largest error and the root of the mean square, of A and of B. Absolute, but
+/// of albedos above 1 relative.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
     /// Of A and of B.
@@ -93,7 +93,8 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Of values against the truth, pair by pair; what is no finite number makes the largest f64::MAX, which JSON can hold.
+    /// Of values against the truth, pair by pair; what is no finite number makes the largest f64::MAX, which JSON can
+    /// hold.
     pub fn between(pairs: impl IntoIterator<Item = (ScaleBias, ScaleBias)>) -> Self {
         let (mut max, mut squares, mut count) = ([0.0f64; 2], [0.0; 2], 0.0f64);
         for (value, truth) in pairs {

@@ -51,7 +51,7 @@ pub enum Worth {
     Uncertified {
         /// The quadrature rule.
         rule: &'static str,
-        /// The largest absolute error of an integral, before it is stored.
+        /// The largest error of a value before it is stored; of values above 1 relative.
         error_bound: f64,
         /// The largest error found against the double-exponential reference, and over how many texels.
         measured_error: (f64, usize),
@@ -63,16 +63,6 @@ pub enum Worth {
 impl Default for Worth {
     fn default() -> Self {
         Worth::Certificate(Certificate::default())
-    }
-}
-
-impl Worth {
-    /// The largest error that an integral may have before it is stored.
-    pub fn error_bound(&self) -> f64 {
-        match self {
-            Worth::Certificate(certificate) => certificate.bound,
-            Worth::Uncertified { error_bound, .. } => *error_bound,
-        }
     }
 }
 

@@ -25,9 +25,10 @@ pub struct F0(f64);
 /// α below this and above 0 is refused: α² must stay a normal number in f32. It is r = 5e-10.
 pub const SMALLEST_ALPHA: f64 = 2.5e-19;
 
-/// n·v below this and above 0 is refused. No formula comes near an end of its numbers there: the square of n·v, by which the reference
-/// divides, underflows in f64 below 1e-154, and n·v itself in f32 below 1e-38; 1e-30 is what models keep denominators above. No table
-/// needs less: a lobe at n·v = 1e-30 differs from its limit at 0 by less than any rule's bound, unless it has no limit.
+/// n·v below this and above 0 is refused. No formula comes near an end of its numbers there: the square of n·v, by
+/// which the reference divides, underflows in f64 below 1e-154, and n·v itself in f32 below 1e-38; 1e-30 is what
+/// models keep denominators above. No table needs less: a lobe at n·v = 1e-30 differs from its limit at 0 by less
+/// than any rule's bound, unless it has no limit.
 pub const SMALLEST_COSINE: f64 = 1e-30;
 
 /// A number in words of the command line: short where it has a hundred zeros.

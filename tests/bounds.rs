@@ -1,5 +1,6 @@
-//! The bounds of the rules: a short search for the largest error over its bound, the places where bounds have once been broken, and
-//! that whoever states too small a bound is found out. `splitsum chart bounds` searches at length (docs/bounds.md).
+//! The bounds of the rules: a short search for the largest error over its bound, the places where bounds have once
+//! been broken, and that whoever states too small a bound is found out. `splitsum chart bounds` searches at length
+//! (docs/bounds.md).
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;
@@ -120,7 +121,8 @@ fn places_that_once_broke_a_bound_keep_it_for_every_lobe() {
 
 #[test]
 fn at_the_smallest_cosine_a_lobe_has_its_limit() {
-    // From n·v = 1e-30 to 0 an albedo moves by about n·v/α ln: 1e-10 of a lobe of the smallest α, nothing that counts elsewhere.
+    // From n·v = 1e-30 to 0 an albedo moves by about n·v/α ln: 1e-10 of a lobe of the smallest α, nothing that counts
+    // elsewhere.
     let integrator = REFERENCE.integrator();
     for lobe in Microfacet::all().filter(|lobe| !lobe.diverges_at_grazing()) {
         for alpha in [SMALLEST_ALPHA, 1e-9, 1e-3, 0.3, 1.0] {

@@ -76,22 +76,32 @@ fn the_hardest_texels_of_the_largest_usual_table_round_correctly() {
     }
 }
 
-#[test]
-fn stages_do_not_change_a_value_and_the_reference_sees_the_same_texels() {
-    // Whether or not a surrogate comes first, and however coarse a device is.
-    let lobe = ggx(Masking::HeightCorrelated);
-    let (lut, large) = (ab(lobe), grid("nov", "roughness", 96));
-    let task = task(&lut, &large, Precision::F16);
+/// Whether or not a surrogate comes first, and however coarse a device is.
+fn stages_change_nothing(lobe: Microfacet, grid: &Grid, lut: Lut) {
+    let task = task(&lut, grid, Precision::F16);
     assert_eq!(rules(&task)[0].name, "s2304");
     let whole = certify(&task, None, &|_| ()).unwrap();
     let rule = Rule::named("h640").unwrap();
-    let mut points = cpu::bake(lobe, &large, &rule, &|_| ());
+    let mut points = cpu::bake(lobe, grid, &rule, &|_| ());
     for shift in [0.0, 8e-7, -8e-7] {
         points.iter_mut().for_each(|value| value.a += shift);
         let device = DeviceTable { points: &points, rule: &rule, name: "a device" };
         let through = certify(&task, Some(device), &|_| ()).unwrap();
         assert_eq!((&through.values, &through.certificate), (&whole.values, &whole.certificate));
     }
+}
+
+#[test]
+fn stages_do_not_change_a_value_and_the_reference_sees_the_same_texels() {
+    let lobe = ggx(Masking::HeightCorrelated);
+    let large = grid("nov", "roughness", 96);
+    stages_change_nothing(lobe, &large, ab(lobe));
+    let energy = |channels| Lut::Energy(Energy::new(lobe, F0::new(0.04).unwrap(), channels).unwrap());
+    stages_change_nothing(lobe, &large, energy(EnergyChannels::KullaConty));
+    stages_change_nothing(lobe, &large, energy(EnergyChannels::Split));
+    let lut = ab(lobe);
+    let task = task(&lut, &large, Precision::F16);
+    let whole = certify(&task, None, &|_| ()).unwrap();
     for (row, &alpha) in large.alphas.iter().enumerate().step_by(20) {
         let small = Grid::of(large.mus.clone(), vec![alpha]);
         let alone = certify(&Task { grid: &small, ..task }, None, &|_| ()).unwrap();

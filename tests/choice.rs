@@ -1,5 +1,5 @@
-//! Who computes a table, and that it does not matter: the rule of `--backend auto`, and the same bytes on any number of threads.
-//! That devices give them too is tested in tests/vulkan/certified.rs.
+//! Who computes a table, and that it does not matter: the rule of `--backend auto`, and the same bytes on any number
+//! of threads. That devices give them too is tested in tests/vulkan/certified.rs.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;

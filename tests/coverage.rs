@@ -1,5 +1,5 @@
-//! The bounds by which values are certified, for A and for every decade of B, over many random points against the reference:
-//! none is violated, and one that is too small is noticed.
+//! The bounds by which values are certified, for A and for every decade of B, over many random points against the
+//! reference: none is violated, and one that is too small is noticed.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;
@@ -30,8 +30,8 @@ fn share(lobe: Microfacet) -> f64 {
     }
 }
 
-/// Points (n·v, α) of which three eighths are spread evenly over n·v and perceptual roughness, as a table's are, and the others crowd at the
-/// edges: n·v down to 1e-12 from 0 and 1, roughness down to 1e-9 and up to 1.
+/// Points (n·v, α) of which three eighths are spread evenly over n·v and perceptual roughness, as a table's are, and
+/// the others crowd at the edges: n·v down to 1e-12 from 0 and 1, roughness down to 1e-9 and up to 1.
 fn points(lobe: Microfacet, count: usize) -> Vec<(f64, f64)> {
     let mut random = Random(20261123);
     let edge = |u: f64, decades: f64| 10f64.powf(-decades * u);

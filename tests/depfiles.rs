@@ -1,6 +1,6 @@
-//! Dependency files as make and ninja read them: built once, all is up to date; after a change of the configuration it is not.
-//! A tool that is not installed is reported as ignored, with the reason; where SPLITSUM_REQUIRE_MAKE is set (in .ci/run, which
-//! installs both), that is a failure instead.
+//! Dependency files as make and ninja read them: built once, all is up to date; after a change of the configuration
+//! it is not. A tool that is not installed is reported as ignored, with the reason; where SPLITSUM_REQUIRE_MAKE is
+//! set (in .ci/run, which installs both), that is a failure instead.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use libtest_mimic::{Arguments, Failed, Trial};
@@ -75,7 +75,8 @@ impl Case {
             || self.name.ends_with(')') && self.name.contains('(')
             || self.target && has(&['%']) && has(&['*', '?', '['])
             || !self.target && self.name.ends_with([' ', '\t']);
-        // Make takes an argument with an = for a variable, so that only its first target, which has no %, can be asked for.
+        // Make takes an argument with an = for a variable, so that only its first target, which has no %, can be
+        // asked for.
         let cannot_be_asked_for = self.target && has(&['=']) && has(&['%']);
         !refused && !cannot_be_asked_for
     }

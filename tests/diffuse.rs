@@ -45,8 +45,8 @@ fn lobe(model: Diffuse, x: f64, mu: f64, phi: f64, r: f64) -> f64 {
 
 #[test]
 fn closed_forms_are_the_integrals_of_their_lobes() {
-    // Each lobe is smooth where cos φ keeps its sign and n·l stays on one side of n·v: Gauss rules on those pieces. At the
-    // ends √(1-x²) is not, which n·l = 1 - u² takes care of.
+    // Each lobe is smooth where cos φ keeps its sign and n·l stays on one side of n·v: Gauss rules on those pieces.
+    // At the ends √(1-x²) is not, which n·l = 1 - u² takes care of.
     let nodes = gauss_legendre(40);
     for model in Diffuse::ALL {
         for (mu, r) in [(0.02_f64, 1.0), (0.3, 0.6), (0.7, 0.2), (0.99, 0.9)] {

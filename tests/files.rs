@@ -9,7 +9,8 @@ use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, Text, read};
 use splitsum::backend::Backend;
 use splitsum::encode::metadata::metadata;
 use splitsum::encode::{Format, encode};
-use splitsum::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
+use splitsum::error::Result;
+use splitsum::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Grid, Lut};
 use splitsum::model::Masking;
 use splitsum::precision::Precision;
 use splitsum::request::{Accuracy, Request};
@@ -164,6 +165,12 @@ fn several_f0_are_layers_of_one_exr() {
     assert!(encode(&tables, Format::Png).is_err());
 }
 
+/// These values as a table of one channel stores them.
+fn stored(precision: Precision, values: &[f64]) -> Result<Stored> {
+    let lut = Lut::Dfg(Dfg { lobe: ggx(Masking::HeightCorrelated), channels: DfgChannels::E });
+    Grid::of(vec![0.5; values.len()], vec![0.25]).stored(&lut, precision, values)
+}
+
 #[test]
 fn values_that_a_precision_cannot_hold_are_refused() {
     for (precision, bad) in [
@@ -173,7 +180,7 @@ fn values_that_a_precision_cannot_hold_are_refused() {
         (Precision::Unorm8, [f64::NAN, f64::INFINITY, 1.002, -0.002]),
     ] {
         for bad in bad {
-            assert!(Stored::of(precision, &[0.5, bad]).is_err(), "{bad} was stored as {precision:?}");
+            assert!(stored(precision, &[0.5, bad]).is_err(), "{bad} was stored as {precision:?}");
         }
     }
     // What rounds to the end of the range is the end of the range.
@@ -182,7 +189,7 @@ fn values_that_a_precision_cannot_hold_are_refused() {
         (Precision::Unorm16, 1.0 + 0.49 / 65535.0, 1.0),
         (Precision::Unorm8, -0.49 / 255.0, 0.0),
     ] {
-        assert_eq!(Stored::of(precision, &[value]).unwrap().get(0), end);
+        assert_eq!(stored(precision, &[value]).unwrap().get(0), end);
     }
 }
 
@@ -190,7 +197,7 @@ fn values_that_a_precision_cannot_hold_are_refused() {
 fn stored_values_read_back() {
     for precision in [Precision::F16, Precision::F32, Precision::F64, Precision::Unorm16, Precision::Unorm8] {
         let values: Vec<f64> = (0..=1000).map(|i| f64::from(i) / 1000.0).collect();
-        let stored = Stored::of(precision, &values).unwrap();
+        let stored = stored(precision, &values).unwrap();
         assert_eq!(stored.bytes().len(), values.len() * precision.bytes());
         for (got, value) in stored.iter().zip(values) {
             assert_eq!(got, precision.nearest(value), "{precision:?}");

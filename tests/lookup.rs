@@ -81,7 +81,8 @@ fn the_largest_errors_are_those_that_others_measured() {
         }
         if let Some(theirs) = practical {
             let lattice = on_their_lattice(&Bilinear::new(GGX, axes, size, &rule), &rule);
-            // They took a tenth of the lattice, and state that the worst of a cell with four places is then low by up to
+            // They took a tenth of the lattice, and state that the worst of a cell with four places is then low by up
+            // to
             // 7.3 %; splines between its rows, of places that we leave out, have found them 3 % more.
             assert!(lattice > 0.96 * theirs && lattice < 1.1 * theirs, "{axes:?} {size}: {lattice} for {theirs}");
             // A search finds no less. It finds up to a quarter more where the worst lies at roughness 0.045 itself: the

@@ -126,7 +126,8 @@ fn measurements_are_no_chart() {
 #[test]
 fn a_killed_bake_leaves_nothing() {
     use std::os::unix::process::ExitStatusExt;
-    // A file system in memory can make files without a name; the limit's signal kills as kill -9 does, and always in time.
+    // A file system in memory can make files without a name; the limit's signal kills as kill -9 does, and always in
+    // time.
     let folder = tempfile::tempdir_in("/dev/shm").unwrap();
     fs::write(folder.path().join("a.exr"), "the old file").unwrap();
     let script =

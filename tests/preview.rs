@@ -22,7 +22,8 @@ fn interpolated_integrals_are_within_half_a_step_of_the_difference() {
         for roughness in ROUGHNESSES {
             let alpha = roughness * roughness;
             let curve = Curve::of_integral(lobe, alpha, &rule).unwrap();
-            // Evenly along √(n·v), no multiple of the nodes' spacing apart; and in the first cells, which are the worst.
+            // Evenly along √(n·v), no multiple of the nodes' spacing apart; and in the first cells, which are the
+            // worst.
             let even = (0..20_000).map(|i| (f64::from(i) + 0.37) / 20_000.0);
             let first = (1..1000).map(|i| f64::from(i) * 1e-6);
             let mus: Vec<f64> = even.chain(first).map(|root| root * root).collect();

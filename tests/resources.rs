@@ -41,15 +41,18 @@ fn limited(folder: &Path, limit: &str, arguments: &str) -> Result<Output, Failed
 
 fn refused_or_done() -> Result<(), Failed> {
     let folder = tempfile::tempdir()?;
-    let bakes = [
-        "--size 16 --threads 1 -o a.exr",
-        "--size 600 --threads 2 -o a.exr",
-        "--size 600 --threads 1 --precision unorm16 -o a.png",
-        "--lut energy --size 200x900 --precision f32 --threads 1 -o a.exr",
+    let commands = [
+        "bake --backend cpu -q --size 16 --threads 1 -o a.exr",
+        "bake --backend cpu -q --size 600 --threads 2 -o a.exr",
+        "bake --backend cpu -q --size 600 --threads 1 --precision unorm16 -o a.png",
+        "bake --backend cpu -q --lut energy --size 200x900 --precision f32 --threads 1 -o a.exr",
+        "furnace --size 300 -o f.png",
+        "preview --backend cpu --scene punctual --size 64 -o p.png",
+        "chart table --size 700 -o t.png",
     ];
-    for bake in bakes {
+    for command in commands {
         let code = |kib: usize| -> Result<Option<i32>, Failed> {
-            let output = limited(folder.path(), &format!("ulimit -v {kib}"), &format!("bake --backend cpu -q {bake}"))?;
+            let output = limited(folder.path(), &format!("ulimit -v {kib}"), command)?;
             Ok(output.status.code())
         };
         // From where the program starts to where it has plenty.
@@ -57,7 +60,7 @@ fn refused_or_done() -> Result<(), Failed> {
         let refused = codes.iter().take_while(|code| **code == Some(8)).count();
         let done = codes[refused..].iter().all(|code| *code == Some(0));
         if !done || refused == 0 || refused == codes.len() {
-            return Err(format!("{bake}: {codes:?}").into());
+            return Err(format!("{command}: {codes:?}").into());
         }
     }
     Ok(())

@@ -1,4 +1,5 @@
-//! The energy between specular and diffuse reflection: averages, what multiple scattering gives back, what a base may get.
+//! The energy between specular and diffuse reflection: averages, what multiple scattering gives back, what a base may
+//! get.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;

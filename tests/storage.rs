@@ -1,4 +1,5 @@
-//! What a storage cannot hold is refused, and what a file promises is kept: at extremes, by the figures of an independent method.
+//! What a storage cannot hold is refused, and what a file promises is kept: at extremes, by the figures of an
+//! independent method.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 #[path = "common/program.rs"]
@@ -19,8 +20,9 @@ use tempfile::tempdir;
 
 #[test]
 fn a_value_that_the_storage_cannot_hold_is_named_with_the_storage_that_holds_it() {
-    // The largest values of the tables of 128 x 128 by an independent integration (2.21, 1.545, 1.015, 1.63, 4.40), here to four
-    // digits; R of a mirror with F0 = 0.04 is 0.96/√(1 - 0.04 20/21 - 1/21) = 1.00399 at normal incidence.
+    // The largest values of the tables of 128 x 128 by an independent integration (2.21, 1.545, 1.015, 1.63, 4.40),
+    // here to four digits; R of a mirror with F0 = 0.04 is 0.96/√(1 - 0.04 20/21 - 1/21) = 1.00399 at normal
+    // incidence.
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("a.png"), "the old file").unwrap();
     for (flags, largest) in [
@@ -56,6 +58,51 @@ fn a_value_that_the_storage_cannot_hold_is_named_with_the_storage_that_holds_it(
 }
 
 #[test]
+fn what_is_not_certified_is_not_pushed_into_the_range_either() {
+    // E reaches 1.05, and the rule errs by up to 4e-2: the estimate is within that of 1, and the truth is not.
+    let folder = tempdir().unwrap();
+    let lobe =
+        "--model blinn-phong --masking separable --channels e --size 64x1 --x nov,edges --y roughness,edges,min=0.68";
+    let output =
+        run(&folder, &format!("bake --backend cpu {lobe} --certify off --rule h56 --precision unorm16 -o c.png"));
+    assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
+    assert!(stderr(&output).contains("got 1.0"), "{}", stderr(&output));
+    // An albedo that stays below 1 is meant to be 1 where the rule says a little more.
+    ok(&folder, "bake --backend cpu --size 64 --certify off --rule h56 --precision unorm16 --x nov,edges -q -o c.png");
+    // A rule that promises nothing of a lobe is refused for that.
+    let output = run(&folder, "bake --lut sheen --backend cpu --size 4 --certify off --rule d6144 -o d.exr");
+    assert!(
+        output.status.code() == Some(4) && stderr(&output).contains("rule: expected one that serves"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[test]
+fn unorms_beside_a_boundary_round_to_the_right_side() {
+    // The number just below or above half a step, whose product with the steps is rounded to a tie.
+    for (precision, count) in [(Precision::Unorm16, 65535.0), (Precision::Unorm8, 255.0)] {
+        let mut ties = 0;
+        for whole in 0..255 {
+            let boundary = (f64::from(whole) + 0.5) / count;
+            for value in [boundary.next_down(), boundary, boundary.next_up()] {
+                // value · count - (whole + 1/2), exactly: both are less than 2^9, so that the fused product loses
+                // nothing.
+                let beyond = value.mul_add(count, -(f64::from(whole) + 0.5));
+                let expected = if beyond == 0.0 {
+                    f64::from(whole + whole % 2)
+                } else {
+                    f64::from(whole) + f64::from(beyond > 0.0)
+                };
+                assert_eq!((precision.nearest(value) * count).round(), expected, "{value:e}");
+                ties += usize::from(value * count == f64::from(whole) + 0.5 && beyond != 0.0);
+            }
+        }
+        assert!(ties > 50, "{ties} products were rounded to a tie");
+    }
+}
+
+#[test]
 fn charts_of_tables_show_what_no_unorm_holds() {
     let folder = tempdir().unwrap();
     for (flags, printed) in [
@@ -85,7 +132,8 @@ fn bake(lut: Lut, x: &str, y: &str, precision: Precision) -> Table {
 
 #[test]
 fn the_naive_split_is_rounded_correctly_at_grazing_angles() {
-    // 1-F = (1-F0) (5 μ - 10 μ² + …): at μ = 1e-10 it is 4.79999999904e-10, and at the other 2e-20 below a boundary of f16.
+    // 1-F = (1-F0) (5 μ - 10 μ² + …): at μ = 1e-10 it is 4.79999999904e-10, and at the other 2e-20 below a boundary
+    // of f16.
     let table = split("nov,offset=0,min=1e-10", Precision::F32);
     assert_eq!(table.value(0, 0, 0), f64::from(4.8e-10_f32));
     let table = split("nov,offset=0,min=1.114507523220038e-05", Precision::F16);
@@ -111,7 +159,8 @@ fn averages_of_a_term_that_jumps_promise_what_they_keep() {
     }
 }
 
-/// E_avg by double exponential quadrature in two pieces that meet where the term jumps; tests/energy.rs holds it against figures.
+/// E_avg by double exponential quadrature in two pieces that meet where the term jumps; tests/energy.rs holds it
+/// against figures.
 fn average(lobe: Microfacet, roughness: f64) -> f64 {
     let (integrator, alpha) = (REFERENCE.integrator(), roughness * roughness);
     let middle = lobe.break_at(alpha).unwrap();

@@ -1,5 +1,5 @@
-//! How fast, and at what error: `cargo bench`. Everything is timed in one run, in turns, so that what counts are the ratios to the
-//! baseline; these are medians of several rounds. It prints Markdown.
+//! How fast, and at what error: `cargo bench`. Everything is timed in one run, in turns, so that what counts are the
+//! ratios to the baseline; these are medians of several rounds. It prints Markdown.
 #![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
 mod counted;

@@ -1,5 +1,5 @@
-//! The CPU: f64, eight texels at a time in its vector registers. Every texel stands on its own, so that neither threads nor
-//! vectors can change a bit of the result.
+//! The CPU: f64, eight texels at a time in its vector registers. Every texel stands on its own, so that neither
+//! threads nor vectors can change a bit of the result.
 
 use super::Progress;
 use crate::integrate::rule::{Integrator, Method, Rule};
@@ -147,7 +147,8 @@ fn integrate(
     integrals
 }
 
-/// Integrates at `point(0)` and on, as many lanes at a time as there are; a group that is not full repeats its last point.
+/// Integrates at `point(0)` and on, as many lanes at a time as there are; a group that is not full repeats its last
+/// point.
 fn in_groups(
     integrand: Integrand,
     integrator: &Integrator,

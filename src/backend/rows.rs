@@ -1,4 +1,5 @@
-//! The CPU in whatever arithmetic, f64 or f32, by rules and by estimators alike: for comparing methods. Lanes are texels of a row.
+//! The CPU in whatever arithmetic, f64 or f32, by rules and by estimators alike: for comparing methods. Lanes are
+//! texels of a row.
 
 use crate::integrate::ScaleBias;
 use crate::integrate::rule::Integrator;
@@ -44,7 +45,8 @@ pub fn bake_in<V: Vector>(lobe: Microfacet, grid: &Grid, work: Work) -> Vec<Scal
     }
 }
 
-/// A method by its type, so that the loop over a row is compiled for it alone: together they are too large to be optimised.
+/// A method by its type, so that the loop over a row is compiled for it alone: together they are too large to be
+/// optimised.
 pub trait Method: Sync {
     /// What all texels of a row share.
     fn share(&self, _: Microfacet, _: f64) -> Vec<HalfVector> {

@@ -171,7 +171,8 @@ pub fn compile(source: &str) -> Result<Kernel> {
             image_load: naga::proc::BoundsCheckPolicy::Restrict,
             binding_array: naga::proc::BoundsCheckPolicy::Restrict,
         },
-        // Every loop here counts up to a bound that is uniform over the dispatch, and every divisor is an array's length.
+        // Every loop here counts up to a bound that is uniform over the dispatch, and every divisor is an array's
+        // length.
         force_loop_bounding: false,
         emit_int_div_checks: false,
         ..spv::Options::default()

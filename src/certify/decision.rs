@@ -24,8 +24,8 @@ pub struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// The stored `values` of a texel at n·v = `mu`, from its integral and its row's average; and whether they are beyond doubt:
-    /// whether whatever the truth may be rounds to the same.
+    /// The stored `values` of a texel at n·v = `mu`, from its integral and its row's average; and whether they are
+    /// beyond doubt: whether whatever the truth may be rounds to the same.
     pub(super) fn decide(
         &self,
         mu: f64,
@@ -41,7 +41,8 @@ impl Task<'_> {
         decided
     }
 
-    /// The stored `values` of a texel, and the most that any of them may be off before it is rounded: of values above 1 relative.
+    /// The stored `values` of a texel, and the most that any of them may be off before it is rounded: of values above
+    /// 1 relative.
     pub(super) fn store(
         &self,
         mu: f64,

@@ -1,4 +1,5 @@
-//! Checks on a sample: a device's table is compared with the CPU's, and any table with the reference, before it is used.
+//! Checks on a sample: a device's table is compared with the CPU's, and any table with the reference, before it is
+//! used.
 
 use crate::backend::cpu;
 use crate::error::{Error, Result};
@@ -99,8 +100,8 @@ pub(super) fn sample(grid: &Grid) -> impl Iterator<Item = usize> {
     corners(grid).into_iter().chain(runs)
 }
 
-/// Measures a table by `rule` against the reference, at the corners and at others scattered over it, so many `texels` in all; an error beyond what
-/// the rule and the `arithmetic` promise fails.
+/// Measures a table by `rule` against the reference, at the corners and at others scattered over it, so many `texels`
+/// in all; an error beyond what the rule and the `arithmetic` promise fails.
 pub fn measure(
     integrand: impl Into<Integrand>,
     grid: &Grid,

@@ -8,7 +8,8 @@ use crate::integrate::rules::{CLOSED_FORM, D10240, REFERENCE};
 use crate::integrate::{Integrand, ScaleBias};
 use crate::precision::Precision;
 
-/// So many values of a table, at the most, are rounded correctly to f32, whose steps are as fine as the fast stages' bounds.
+/// So many values of a table, at the most, are rounded correctly to f32, whose steps are as fine as the fast stages'
+/// bounds.
 pub const LARGEST_F32: usize = 4096;
 
 /// The stages of the CPU, ready for any part of a table.
@@ -55,8 +56,9 @@ impl Stages {
         }
     }
 
-    /// The last rule before the reference. Earlier stages keep twice its error as a margin: so whatever they decide it would have
-    /// decided too, and which texels are left to the reference does not depend on them.
+    /// The last rule before the reference. Earlier stages keep twice its error as a margin, of integrals and of
+    /// averages: so whatever they decide it would have decided too, and which texels are left to the reference does
+    /// not depend on them.
     pub(super) fn margin(&self) -> Option<Rule> {
         let last = self.bakers.len().checked_sub(2).filter(|_| self.rounds_correctly);
         last.map(|i| self.bakers[i].rule)

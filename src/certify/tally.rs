@@ -16,8 +16,8 @@ pub struct Tally {
     pub by_reference: usize,
     /// How many are left.
     pub undecided: usize,
-    /// The most that a value may be off before it is rounded, of those that are not known to be rounded correctly; of values
-    /// above 1 relative.
+    /// The most that a value may be off before it is rounded, of those that are not known to be rounded correctly; of
+    /// values above 1 relative.
     pub error: f64,
     /// The smallest distance from a boundary of rounding among the values that the reference decided.
     pub smallest_distance: Option<f64>,
@@ -28,13 +28,12 @@ pub struct Tally {
 impl Tally {
     /// What two bands have found together.
     pub fn with(mut self, other: Tally) -> Tally {
-        let nearer = |a: f64, b: f64| a.min(b);
         self.texels += other.texels;
         self.by_reference += other.by_reference;
         self.undecided += other.undecided;
         self.error = self.error.max(other.error);
         self.smallest_distance = match (self.smallest_distance, other.smallest_distance) {
-            (Some(a), Some(b)) => Some(nearer(a, b)),
+            (Some(a), Some(b)) => Some(a.min(b)),
             (a, b) => a.or(b),
         };
         // Every band goes through the same stages in the same order, some no further than the first.
@@ -50,8 +49,8 @@ impl Tally {
         self
     }
 
-    /// The certificate; the hash is left to whoever knows the order of the file. An error where a channel's formula leaves no
-    /// bound of a value's error.
+    /// The certificate; the hash is left to whoever knows the order of the file. An error where a channel's formula
+    /// leaves no bound of a value's error.
     pub fn certificate(&self, lut: &Lut, precision: Precision, stages: &Stages) -> Result<Certificate> {
         let Tally { texels, by_reference, undecided, error, smallest_distance, .. } = *self;
         if !error.is_finite() {

@@ -1,10 +1,10 @@
-//! Ziv's strategy: a cheap stage with a bound of its error decides every value that lies farther from a boundary of rounding
-//! than that; what is left goes to a finer stage, and at last to the reference. Whatever stages a value has passed, it is the
-//! same: the true integral, rounded once (Ziv, "Fast evaluation of elementary mathematical functions with correctly rounded last
-//! bit", 1991).
+//! Ziv's strategy: a cheap stage with a bound of its error decides every value that lies farther from a boundary of
+//! rounding than that; what is left goes to a finer stage, and at last to the reference. Whatever stages a value has
+//! passed, it is the same: the true integral, rounded once (Ziv, "Fast evaluation of elementary mathematical
+//! functions with correctly rounded last bit", 1991).
 //!
-//! The stages check each other. A value that differs from that of a finer stage by more than both may err is a fault, of the
-//! device or of a bound: the table is thrown away, not mended.
+//! The stages check each other. A value that differs from that of a finer stage by more than both may err is a fault,
+//! of the device or of a bound: the table is thrown away, not mended.
 
 use super::decision::{Task, check_apart};
 use super::deviation::{check_range, sample, scatter};
@@ -23,6 +23,10 @@ use rayon::prelude::*;
 
 /// Texels that pass through the second stage though the first has decided them, so that one checks the other.
 const AUDITED: usize = 64;
+
+/// What earlier stages keep of the error of the last rule before the reference: theirs and its own may point apart,
+/// and a thousandth more, since the share of B is taken of the earlier stage's B.
+const MARGIN: f64 = 2.001;
 
 /// A table that a device has computed.
 #[derive(Clone, Copy, Debug)]
@@ -159,7 +163,7 @@ struct Decider<'a, E> {
     averages: &'a [ScaleBias<Ball>],
     /// What the stage's A and B may be off, by its own type: it is asked at every texel.
     errors_at: E,
-    /// Twice the error of this rule is kept as a margin.
+    /// [`MARGIN`] times the error of this rule is kept.
     margin: Option<Rule>,
     /// Whether mirrors are in f64, and err by no more than its arithmetic.
     exact_mirrors: bool,
@@ -176,7 +180,7 @@ impl<E: Fn(f64, ScaleBias) -> ScaleBias + Sync> Decider<'_, E> {
         }
         let mut errors = (self.errors_at)(alpha, value);
         if let Some(margin) = &self.margin {
-            errors.add(2.0, margin.errors_at(integrand, alpha, value));
+            errors.add(MARGIN, margin.errors_at(integrand, alpha, value));
         }
         value.within(errors)
     }
@@ -218,7 +222,7 @@ impl Run<'_> {
         check_range(integrand, self.task.grid, rule, points)?;
         let texels = Texels::All(self.open.len());
         let errors_at = |alpha, value| rule.device_errors_at(integrand, alpha, value);
-        let averages = self.averages(&self.stages.bakers[0], &texels);
+        let averages = self.averages(&self.stages.bakers[0], &texels, self.stages.margin());
         let decider = Decider {
             task: self.task,
             averages: &averages,
@@ -242,14 +246,15 @@ impl Run<'_> {
             Texels::Some(texels) => baker.bake_at(grid, texels),
         };
         self.compare(&texels, &integrals, &baker.rule)?;
-        let averages = self.averages(baker, &texels);
-        let errors_at = |alpha, value| baker.rule.errors_at(integrand, alpha, value);
         let finer = self.stages.bakers.len() - 1 - index;
+        let margin = self.stages.margin().filter(|_| finer > 1);
+        let averages = self.averages(baker, &texels, margin);
+        let errors_at = |alpha, value| baker.rule.errors_at(integrand, alpha, value);
         let decider = Decider {
             task: self.task,
             averages: &averages,
             errors_at: &errors_at,
-            margin: self.stages.margin().filter(|_| finer > 1),
+            margin,
             exact_mirrors: true,
             rounds_correctly: self.stages.rounds_correctly,
         };
@@ -327,7 +332,7 @@ impl Run<'_> {
     }
 
     /// The averages of the rows of these texels by a rule, with what they may be off; zeros where none are needed.
-    fn averages(&self, baker: &Baker, texels: &Texels) -> Vec<ScaleBias<Ball>> {
+    fn averages(&self, baker: &Baker, texels: &Texels, margin: Option<Rule>) -> Vec<ScaleBias<Ball>> {
         let (grid, integrand) = (self.task.grid, self.integrand());
         let mut averages = vec![ScaleBias::default(); grid.alphas.len()];
         if self.task.lut.needs_averages() {
@@ -341,6 +346,9 @@ impl Run<'_> {
                 let mut errors = baker.rule.errors_at(integrand, grid.alphas[row], average);
                 let quadrature = average_error(integrand);
                 errors.add(1.0, ScaleBias { a: quadrature, b: quadrature });
+                if let Some(margin) = &margin {
+                    errors.add(MARGIN, margin.errors_at(integrand, grid.alphas[row], average));
+                }
                 averages[row] = average.within(errors);
             }
         }

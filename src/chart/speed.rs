@@ -21,8 +21,8 @@ pub enum Against {
 
 /// The largest error of every method at every cost.
 ///
-/// A method's line joins the best of its marks: whatever point set and arithmetic reaches an error first. The thin line through a mark
-/// runs from the shortest time to the longest.
+/// A method's line joins the best of its marks: whatever point set and arithmetic reaches an error first. The thin
+/// line through a mark runs from the shortest time to the longest.
 pub fn chart(speed: &Speed, machine: &Machine, against: Against) -> Drawing {
     let mut drawing = Drawing::new(1000.0, 770.0);
     let (lobe, size) = (speed.plan.lobe, speed.plan.size);

@@ -24,7 +24,8 @@ pub struct BakeArgs {
     /// auto (Vulkan where a device can do it and the work pays for starting it, else the CPU), vulkan or cpu
     #[arg(long, value_name = "NAME", default_value = "auto", help_heading = "The run")]
     backend: String,
-    /// Vulkan device, by UUID or a part of its name that no other has [default: discrete, integrated, virtual, software]
+    /// Vulkan device, by UUID or a part of its name that no other has [default: discrete, integrated, virtual,
+    /// software]
     #[arg(long, value_name = "NAME|UUID", help_heading = "The run")]
     device: Option<String>,
     /// Run under Vulkan's validation layers; whatever they say is a failure
@@ -102,6 +103,7 @@ pub fn run(arguments: BakeArgs) -> Result<()> {
     resources::start_threads(arguments.threads)?;
     resources::check_bakes(&jobs)?;
     let backend = open(&arguments)?;
+    // Last, since it makes the folder of the default output.
     for name in jobs.iter().map(|job| &job.output).chain(&depfile) {
         output::check(name)?;
     }

@@ -7,7 +7,7 @@ mod table;
 
 use super::progress::Progress;
 use super::table_args::{DEFAULT_OUTPUT, TableArgs};
-use super::{output, place, usage};
+use super::{output, place, resources, usage};
 use crate::backend::vulkan::devices::{DeviceInfo, list_devices};
 use crate::backend::vulkan::gpu::{Gpu, GpuOptions};
 use crate::draw::Drawing;
@@ -26,9 +26,11 @@ pub enum ChartArgs {
     Table(Box<TableArgs>),
     /// Measure speed against accuracy, the field's estimators beside ours, on this CPU and on every Vulkan device
     Speed(speed::SpeedArgs),
-    /// Map where formulas and methods fail: into the corners of angle and roughness, in f64, in f32 and on every Vulkan device
+    /// Map where formulas and methods fail: into the corners of angle and roughness, in f64, in f32 and on every
+    /// Vulkan device
     Stability(stability::StabilityArgs),
-    /// Climb towards the largest error over its bound, of every rule, lobe and channel, on this CPU and on every Vulkan device
+    /// Climb towards the largest error over its bound, of every rule, lobe and channel, on this CPU and on every
+    /// Vulkan device
     Bounds(bounds::BoundsArgs),
 }
 
@@ -44,7 +46,8 @@ pub struct StudyArgs {
     /// Measure the CPU alone
     #[arg(long)]
     cpu: bool,
-    /// The folder for the charts (SVG and PNG), a page about them (Markdown) and the measurements (JSON; of speed CSV too)
+    /// The folder for the charts (SVG and PNG), a page about them (Markdown) and the measurements (JSON; of speed CSV
+    /// too)
     #[arg(short, long, value_name = "FOLDER", default_value = "out")]
     output: String,
     /// Measure nothing, and draw what this JSON file of an earlier run holds
@@ -54,6 +57,9 @@ pub struct StudyArgs {
     #[arg(short, long)]
     quiet: bool,
 }
+
+/// What a study takes on the CPU, about; a device's driver has memory of its own.
+const STUDY_BYTES: u64 = 128 << 20;
 
 /// What is saved beside the charts.
 #[derive(Serialize, Deserialize)]
@@ -112,6 +118,7 @@ impl StudyArgs {
         if let Some(file) = &self.from {
             return read_study(file);
         }
+        resources::check_memory(STUDY_BYTES)?;
         let devices = devices(self.device.as_deref(), self.cpu)?;
         let measured = measure(&devices, &Progress::of_work("measuring", self.quiet))?;
         let saved = Saved { tool: TOOL.into(), machine: devices.machine(), measured };

@@ -1,7 +1,7 @@
 //! Dependency files in Make's syntax, for make, ninja, CMake and meson; with the flags that compilers have for them.
 //!
-//! The escapes are those that GNU make 4.3 and ninja 1.11 were seen to read, which is more than any manual says; where the
-//! two differ, make is right. tests/depfiles.rs asks both of them.
+//! The escapes are those that GNU make 4.3 and ninja 1.11 were seen to read, which is more than any manual says;
+//! where the two differ, make is right. tests/depfiles.rs asks both of them.
 
 use crate::error::Complaint;
 use std::ffi::OsString;
@@ -48,7 +48,8 @@ pub fn complain(what: &str, name: &str, side: Side) -> Option<Complaint> {
 pub fn rule(targets: &[&str], dependency: Option<&str>) -> String {
     let targets: Vec<String> = targets.iter().map(|name| escape(name, Side::Target)).collect();
     let dependency = dependency.map(|name| {
-        // Without something before it, make takes a name with an = for a variable. These are empty, and nothing to ninja.
+        // Without something before it, make takes a name with an = for a variable. These are empty, and nothing to
+        // ninja.
         let guard = if name.contains('=') { "$< $< " } else { "" };
         format!(" {guard}{}", escape(name, Side::Dependency))
     });
@@ -82,8 +83,8 @@ fn escape_pattern(name: &str) -> String {
     name.chars().map(literal).collect()
 }
 
-/// A character behind a run of backslashes; `equals` where an = came before. Backslashes count only before a character that
-/// has a meaning: there, two stand for one.
+/// A character behind a run of backslashes; `equals` where an = came before. Backslashes count only before a
+/// character that has a meaning: there, two stand for one.
 fn escape_one(c: char, run: usize, side: Side, equals: bool) -> String {
     let as_they_are = "\\".repeat(run);
     let doubled = "\\".repeat(2 * run);

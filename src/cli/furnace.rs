@@ -1,7 +1,7 @@
 //! `splitsum furnace`
 
 use super::table_args::{choice, lobe};
-use super::{output, standard_output};
+use super::{output, resources, standard_output};
 use crate::axis::{Axis, AxisSpec, Parameter};
 use crate::encode::metadata::TOOL;
 use crate::error::{Error, Result};
@@ -78,13 +78,17 @@ pub fn run(arguments: &FurnaceArgs) -> Result<()> {
     if let Some(name) = &arguments.output {
         output::check_picture(name)?;
     }
-    if arguments.json {
+    if arguments.json || arguments.output.is_none() {
         standard_output::check()?;
     }
     // The reciprocal split is a lobe of its own, in the place of Lambert's.
     let splits = if material.base == Diffuse::Lambert { &Split::ALL[..] } else { &Split::ALL[..2] };
     let axis =
         |parameter| Axis::new(AxisSpec { nodes: crate::axis::Nodes::Edges, ..AxisSpec::of(parameter) }, arguments.size);
+    // A texel has its integral, and of each furnace an energy, what is drawn of it and three bytes of colour; a row
+    // those of the directions of its averages.
+    let (maps, size) = (F0S.len() * splits.len(), arguments.size);
+    resources::check_memory((size * size * (16 + maps * 24) + size * 4096) as u64)?;
     let grid = Grid::new(&axis(Parameter::Nov)?, &axis(Parameter::Roughness)?)?;
     let rule = Rule::for_cpu(material.lobe, TOLERANCE, grid.len()).unwrap_or(REFERENCE);
     let furnaces = furnaces(material, &F0S, splits, &grid, &rule)?;

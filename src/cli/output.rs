@@ -10,7 +10,8 @@ use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, IsTerminal, Seek, SeekFrom, Write};
 use std::path::Path;
 
-/// What goes to standard output, a device or a pipe, which cannot seek, waits in memory up to this size, then on the disk.
+/// What goes to standard output, a device or a pipe, which cannot seek, waits in memory up to this size, then on the
+/// disk.
 const SPOOLED: usize = 1 << 24;
 
 /// What may help where a file cannot be written.

@@ -1,7 +1,7 @@
 //! `splitsum preview`
 
-use super::output;
 use super::progress::Progress;
+use super::{output, resources};
 use crate::backend::vulkan::gpu::GpuOptions;
 use crate::backend::{Backend, BackendChoice};
 use crate::error::{Error, Result};
@@ -11,8 +11,9 @@ use std::io::Write;
 
 #[derive(clap::Args)]
 pub struct PreviewArgs {
-    /// What lights the spheres: punctual (one light; Blinn-Phong, Beckmann and GGX below each other), furnace (light from
-    /// everywhere; for Beckmann and GGX the split sum with a table, the integral, their difference times 100) or sky
+    /// What lights the spheres: punctual (one light; Blinn-Phong, Beckmann and GGX below each other), furnace (light
+    /// from everywhere; for Beckmann and GGX the split sum with a table, the integral, their difference times 100) or
+    /// sky
     #[arg(long, value_name = "NAME", default_value = "punctual")]
     scene: String,
     /// Pixels along the edge of a sphere's cell, 16 to 512
@@ -35,6 +36,9 @@ pub fn run(arguments: &PreviewArgs) -> Result<()> {
         return Err(Error::bad_input("size", "16 to 512", size.to_string(), "give a number in that range"));
     }
     output::check_picture(name)?;
+    // A pixel of a row has its light, and of the picture its colour, twice while it is encoded; the most scenes have
+    // six rows.
+    resources::check_memory((ROUGHNESSES.len() * size * size * (24 + 6 * 6) + (16 << 20)) as u64)?;
     let rows = rows(scene)?;
     let choice: BackendChoice = arguments.backend.parse()?;
     let backend = Backend::open(choice, &GpuOptions { device: arguments.device.clone(), ..GpuOptions::default() })?;

@@ -10,7 +10,8 @@ use std::path::Path;
 /// Bytes besides tables and bands: the program itself, fits and nodes, the lines that an encoder holds.
 const BASE: u64 = 32 << 20;
 
-/// Bytes of addresses that the C library sets aside for each thread that allocates (glibc's arenas), beside its stack of 2 MiB.
+/// Bytes of addresses that the C library sets aside for each thread that allocates (glibc's arenas), beside its stack
+/// of 2 MiB.
 const ADDRESSES_OF_A_THREAD: u64 = 66 << 20;
 
 /// Starts so many threads, or one for each core. A single one is the one that runs already.
@@ -47,10 +48,10 @@ pub fn check_memory(bytes: u64) -> Result<()> {
     for Limit { what, left, counts_addresses } in limits() {
         let need = if counts_addresses { need + threads * ADDRESSES_OF_A_THREAD } else { need };
         if need > left {
-            let mib = |bytes: u64| format!("{} MiB", bytes.div_ceil(1 << 20));
             let cure = "give a smaller --size or fewer --threads, or free or allow more memory";
-            let got = format!("{} left of {what}", mib(left));
-            return Err(Error::Resources(Complaint::new("memory", mib(need), got, cure)));
+            let (expected, got) = (need.div_ceil(1 << 20), left >> 20);
+            let got = format!("{got} MiB left of {what}");
+            return Err(Error::Resources(Complaint::new("memory", format!("{expected} MiB"), got, cure)));
         }
     }
     Ok(())

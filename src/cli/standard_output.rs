@@ -3,8 +3,8 @@
 use crate::error::Result;
 use std::io;
 
-/// Whether standard output is open. Rust opens /dev/null for reading and writing where it is not; who wants what is written
-/// to be lost opens it for writing.
+/// Whether standard output is open. Rust opens /dev/null for reading and writing where it is not; who wants what is
+/// written to be lost opens it for writing.
 pub fn check() -> Result<()> {
     if is_closed() {
         let closed = io::Error::new(io::ErrorKind::BrokenPipe, "it is closed");

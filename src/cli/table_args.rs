@@ -17,13 +17,13 @@ use std::path::Path;
 #[derive(Clone, Debug, Default, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct TableArgs {
-    /// Family of tables: dfg, the split sum's E(F0) = F0*A + B (Karis 2013); sheen, the same with charlie and E alone;
-    /// energy, what a specular lobe leaves for a diffuse base and loses between its facets (Kulla and Conty 2017; Turquin
-    /// 2019); diffuse, the albedo of a white diffuse lobe [default: dfg]
+    /// Family of tables: dfg, the split sum's E(F0) = F0*A + B (Karis 2013); sheen, the same with charlie and E
+    /// alone; energy, what a specular lobe leaves for a diffuse base and loses between its facets (Kulla and Conty
+    /// 2017; Turquin 2019); diffuse, the albedo of a white diffuse lobe [default: dfg]
     #[arg(long, value_name = "NAME")]
     pub lut: Option<String>,
-    /// Model: a distribution of normals, or a diffuse lobe; they are listed below [default: ggx; charlie for sheen, burley
-    /// for diffuse]
+    /// Model: a distribution of normals, or a diffuse lobe; they are listed below [default: ggx; charlie for sheen,
+    /// burley for diffuse]
     #[arg(long, value_name = "NAME")]
     pub model: Option<String>,
     /// Masking: height-correlated or separable (Smith; Heitz 2014), schlick-smith (k = alpha/2; Karis 2013), joint
@@ -31,9 +31,9 @@ pub struct TableArgs {
     /// height-correlated; implicit for blinn-phong, neubelt for charlie]
     #[arg(long, value_name = "NAME")]
     pub masking: Option<String>,
-    /// Channels of dfg: ab (scale, bias), be (bias, E = A + B: the multiple-scattering packing), e (E alone) [default: ab].
-    /// Of energy: average (A, B, E over all directions), kulla-conty (E, E_avg), turquin ((1-E)/E), split (the diffuse
-    /// factor 1-F, 1-E, and the reciprocal one for each direction) [default: split]
+    /// Channels of dfg: ab (scale, bias), be (bias, E = A + B: the multiple-scattering packing), e (E alone)
+    /// [default: ab]. Of energy: average (A, B, E over all directions), kulla-conty (E, E_avg), turquin ((1-E)/E),
+    /// split (the diffuse factor 1-F, 1-E, and the reciprocal one for each direction) [default: split]
     #[arg(long, value_name = "NAME")]
     pub channels: Option<String>,
     /// Reflectance at normal incidence, for the split of energy; several, with commas between, are layers of an .exr
@@ -46,10 +46,10 @@ pub struct TableArgs {
     /// Columns x rows, each 1 to 16384; one number for a square [default: 128]
     #[arg(long, value_name = "N|WxH")]
     pub size: Option<Size>,
-    /// What runs along a row, for example nov,sqrt,edges: PARAMETER nov, roughness (perceptual), alpha or exponent (n = 10^(7p), Blinn-Phong's); then, where
-    /// they differ from linear,centres: MAPPING linear, sqrt (t = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES
-    /// centres, edges (i/(N-1)) or offset=X ((i+X)/N); flip; min=X. n.v is 0 or from 1e-30 to 1, roughness 0 or from
-    /// 5e-10 to 1 [default: nov]
+    /// What runs along a row, for example nov,sqrt,edges: PARAMETER nov, roughness (perceptual), alpha or exponent (n
+    /// = 10^(7p), Blinn-Phong's); then, where they differ from linear,centres: MAPPING linear, sqrt (t = sqrt(p)) or
+    /// sqrt-complement (t = sqrt(1-p)); NODES centres, edges (i/(N-1)) or offset=X ((i+X)/N); flip; min=X. n.v is 0
+    /// or from 1e-30 to 1, roughness 0 or from 5e-10 to 1 [default: nov]
     #[arg(long, value_name = "AXIS")]
     pub x: Option<String>,
     /// What runs from row to row, in the same words [default: roughness, or nov where x is a roughness]
@@ -58,12 +58,13 @@ pub struct TableArgs {
     /// How values are stored: f16 or f32 (.exr), unorm16 or unorm8 (.png) [default: the first for the format]
     #[arg(long, value_name = "NAME")]
     pub precision: Option<String>,
-    /// on certifies every value: rounded correctly, or within the tolerance in f32, the same whoever computes it; off stores
-    /// what a rule gives, checked on a sample [default: on; off where a rule is named]
+    /// on certifies every value: rounded correctly, or within the tolerance in f32, the same whoever computes it; off
+    /// stores what a rule gives, checked on a sample [default: on; off where a rule is named]
     #[arg(long, value_name = "on|off")]
     pub certify: Option<String>,
-    /// Largest absolute error of an integral, 1e-13 to 0.1, where its values are stored in f32 or not certified [default:
-    /// 1e-6 for f32 and unorm16, 1.5e-5 for f16, 1e-4 for unorm8; more for models of which a device keeps less]
+    /// Largest absolute error of an integral, 1e-13 to 0.1, where its values are stored in f32 or not certified
+    /// [default: 1e-6 for f32 and unorm16, 1.5e-5 for f16, 1e-4 for unorm8; more for models of which a device keeps
+    /// less]
     #[arg(long, value_name = "ERROR", conflicts_with = "rule")]
     pub tolerance: Option<f64>,
     /// Store what this quadrature rule gives, not certified: h56 to h6144 (CPU and Vulkan), l288 to l4608, s640, s2304,

@@ -1,5 +1,6 @@
-//! Temporary files beside a target. Where the system can, they have no name until they are whole, so that nothing is left of
-//! them whatever ends the program; those with a name are locked while they are written, and removed later if they were left.
+//! Temporary files beside a target. Where the system can, they have no name until they are whole, so that nothing is
+//! left of them whatever ends the program; those with a name are locked while they are written, and removed later if
+//! they were left.
 
 use std::fs::{self, File};
 use std::io;
@@ -31,7 +32,7 @@ impl Temporary {
                 (file, Some(path))
             }
         };
-        // Where a file system has no locks, age alone tells what was left.
+        // Where a file system has no locks, what was left is not removed: nobody can tell whether it is still written.
         let _ = file.try_lock();
         remove_stale(folder, &file);
         Ok(Temporary { file, folder: folder.to_owned(), path })

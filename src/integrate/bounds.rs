@@ -1,15 +1,15 @@
 //! What a rule promises: the largest error of A and of B, for each distribution by name.
 //!
-//! Every bound is measured: `splitsum chart bounds` climbs towards the largest error from thousands of starts, and what it finds
-//! stays below the bound over [`MARGIN`] (docs/bounds.md).
+//! Every bound is measured: `splitsum chart bounds` climbs towards the largest error from thousands of starts, and
+//! what it finds stays below the bound over [`MARGIN`] (docs/bounds.md).
 
 use crate::model::{Masking, Microfacet, Ndf};
 
-/// Below this α, r = 0.07, Charlie's ring lies so near the horizon that 2e-6 is all that is promised of the reference, and nothing of
-/// its coarser kin.
+/// Below this α, r = 0.07, Charlie's ring lies so near the horizon that 2e-6 is all that is promised of the
+/// reference, and nothing of its coarser kin.
 pub const CHARLIE_LIMIT: f64 = 0.0049;
 
-/// How often the largest error that a long search finds fits into a bound.
+/// A bound is at least so many times the largest error that a long search finds.
 pub const MARGIN: f64 = 1.5;
 
 /// The bound of what a rule does not serve for.
@@ -28,8 +28,8 @@ pub struct Bounds {
     pub blinn_phong: f64,
     /// Of Charlie over its whole domain, with the masking terms that are no fit.
     pub charlie: f64,
-    /// Of Charlie over its whole domain with its fitted Λ: that is so large at small α that what is seen of the ring is its far tail, which
-    /// falls faster than the rules over half vectors follow (below roughness 1e-6).
+    /// Of Charlie over its whole domain with its fitted Λ: that is so large at small α that what is seen of the ring
+    /// is its far tail, which falls faster than the rules over half vectors follow (below roughness 1e-6).
     pub charlie_fitted: f64,
     /// Of Charlie from [`CHARLIE_LIMIT`] up.
     pub charlie_above_limit: f64,

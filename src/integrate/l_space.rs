@@ -1,8 +1,8 @@
 //! The integral over directions of light for GGX, with the azimuth in closed form for A + B: a second formula, which
 //! shares no mechanism with the half-vector one.
 //!
-//! y = T/α is the scaled slope of the half vector in the plane of v and n, T = tan((θ_v - θ_l)/2); with x = n·l, sl = sin θ_l,
-//! sv = sin θ_v, M = (μ+x)², f = 1 + T², b2 = 1 - α², Q = (sv+sl)² + α² M, S = √((1+y²) Q):
+//! y = T/α is the scaled slope of the half vector in the plane of v and n, T = tan((θ_v - θ_l)/2); with x = n·l, sl =
+//! sin θ_l, sv = sin θ_v, M = (μ+x)², f = 1 + T², b2 = 1 - α², Q = (sv+sl)² + α² M, S = √((1+y²) Q):
 //!
 //! A + B = ∫ (4 sl/f) (n·l V) J dy,  J = α³ + 2 α² b2 (μ+x)/S + b2² (μ+x)(M α²(1+y²) + Q)/(2 S³).
 //!
@@ -75,8 +75,8 @@ impl LSpaceRule {
     }
 }
 
-/// Whether the formula serves for a lobe: its azimuth integral is that of GGX, and the layer that it subtracts that of the
-/// height-correlated term, which the joint approximation has in another form.
+/// Whether the formula serves for a lobe: its azimuth integral is that of GGX, and the layer that it subtracts that
+/// of the height-correlated term, which the joint approximation has in another form.
 pub fn l_space_applies(lobe: Microfacet) -> bool {
     match lobe.ndf {
         Ndf::Ggx => match lobe.masking {
@@ -129,10 +129,10 @@ pub fn l_space<R: Real>(lobe: Microfacet, mu: R, alpha: R, nodes: &LSpaceNodes) 
     ScaleBias { a: e - b, b }
 }
 
-/// What the height-correlated term does within x ~ μ of the horizon, integrated in closed form and subtracted from the
-/// integrand of A + B: there n·l V = x/(2(α x + α μ + …)) has a layer that no fixed rule resolves as μ → 0. Where μ is no
-/// smaller than α/2 there is none, and the subtraction would cost digits. B, whose azimuth is not integrated in closed form,
-/// leaves it to the nodes that crowd there.
+/// What the height-correlated term does within x ~ μ of the horizon, integrated in closed form and subtracted from
+/// the integrand of A + B: there n·l V = x/(2(α x + α μ + …)) has a layer that no fixed rule resolves as μ → 0. Where
+/// μ is no smaller than α/2 there is none, and the subtraction would cost digits. B, whose azimuth is not integrated
+/// in closed form, leaves it to the nodes that crowd there.
 struct Layer<R> {
     /// 2 α² ∫_0^1 n·l V dx, the layer's share of A + B.
     e: R,

@@ -1,14 +1,15 @@
-//! The reference: the integral over directions of light, by double exponential quadrature in both variables. With fewer nodes it
-//! is the finest of the cheap rules, for any lobe.
+//! The reference: the integral over directions of light, by double exponential quadrature in both variables. With
+//! fewer nodes it is the finest of the cheap rules, for any lobe.
 //!
-//! In the plane of v and n, T = tan((θ_v - θ_l)/2) is the slope of the half vector; w is the azimuth of l from the mirror
-//! direction, z = tan(w/2). Then tan² θ_h = t = T² + 4 sin θ_v sin θ_l/(μ+x)² sin²(w/2), and
+//! In the plane of v and n, T = tan((θ_v - θ_l)/2) is the slope of the half vector; w is the azimuth of l from the
+//! mirror direction, z = tan(w/2). Then tan² θ_h = t = T² + 4 sin θ_v sin θ_l/(μ+x)² sin²(w/2), and
 //!
 //! E = ∫ (2 sin θ_l/(1+T²)) (n·l V) dT ∫ 4 D(t) F dz/(1+z²), V being independent of w.
 //!
-//! T runs from -t1 (n·l = 0) to tan(θ_v/2) (n·l = 1), in pieces that meet at the mirror direction and where the masking
-//! term is not smooth, each mapped by T = width · sinh r about the mirror direction, or for sheen, whose half vectors lie near the
-//! horizon, by T = -t1 + √α sinh r; the inner variable is z = k z', k being the scale of D's peak.
+//! T runs from -t1 (n·l = 0) to tan(θ_v/2) (n·l = 1), in pieces that meet at the mirror direction and where the
+//! masking term is not smooth, each mapped by T = width · sinh r about the mirror direction, or for sheen, whose half
+//! vectors lie near the horizon, by T = -t1 + √α sinh r; the inner variable is z = k z', k being the scale of D's
+//! peak.
 
 use super::ScaleBias;
 use super::h_space::TAIL_DEPTH;
@@ -85,14 +86,15 @@ pub fn reference<R: Real>(lobe: Microfacet, mu: R, alpha: R, nodes: &ReferenceNo
     }
 }
 
-/// Charlie ends where n·l is 20 √α or more: (sin θ_h)^(1/α) is there below exp(-(n·l)²/(8α)) = 2e-22 of what it is at the horizon. As a
-/// multiple of √α in T, of which n·l is at least half.
+/// Charlie ends where n·l is 20 √α or more: (sin θ_h)^(1/α) is there below exp(-(n·l)²/(8α)) = 2e-22 of what it is at
+/// the horizon. As a multiple of √α in T, of which n·l is at least half.
 const CHARLIE_END: f64 = 40.0;
 
 /// Below this α the slopes of GGX are cut off nearer, lest the nodes be spread over twenty decades of which two count.
 ///
-/// Beyond the scaled slope y lie y^-2 of a lobe, and where that is tan θ_v and more α/n·v of y^-1: 2e-18 at the cut. Of B all of what
-/// the tail gives may be lost, 3e-4 α² at n·v = 1, which is a tenth of the floor of the reference's promise here, and below it less.
+/// Beyond the scaled slope y lie y^-2 of a lobe, and where that is tan θ_v and more α/n·v of y^-1: 2e-18 at the cut.
+/// Of B all of what the tail gives may be lost, 3e-4 α² at n·v = 1, which is a tenth of the floor of the reference's
+/// promise here, and below it less.
 const SHARPEST: f64 = 3e-11;
 
 /// The scaled slope at which GGX ends.

@@ -41,8 +41,9 @@ pub struct Rule {
     pub(super) bounds: Bounds,
 }
 
-/// What f32 arithmetic may add to a rule's error on a device: 1.2e-6, half again as much as the 8e-7 that were measured with correctly
-/// rounded ÷ and √. With its fitted Λ, at roughness 1e-8, where only a tail of its ring is seen, Charlie errs by 1.5e-6.
+/// What f32 arithmetic may add to a rule's error on a device: 1.2e-6, half again as much as the 8e-7 that were
+/// measured with correctly rounded ÷ and √. With its fitted Λ, at roughness 1e-8, where only a tail of its ring is
+/// seen, Charlie errs by 1.5e-6.
 pub fn f32_arithmetic(integrand: impl Into<Integrand>) -> f64 {
     match integrand.into() {
         Integrand::Specular(Microfacet { ndf: Ndf::Charlie, masking: Masking::HeightCorrelated }) => 2.5e-6,
@@ -72,8 +73,8 @@ impl Rule {
         Rule::cheapest(integrand, texels, |rule| rule.bound(integrand) <= tolerance)
     }
 
-    /// The cheapest rule for the CPU that decides how nearly every value of a table of `texels` rounds: one whose error of B is
-    /// a share of B.
+    /// The cheapest rule for the CPU that decides how nearly every value of a table of `texels` rounds: one whose
+    /// error of B is a share of B.
     pub fn for_rounding(integrand: impl Into<Integrand>, texels: usize) -> Option<Rule> {
         let integrand = integrand.into();
         let closed = |rule: &Rule| rule.method == Method::ClosedForm;
@@ -85,7 +86,8 @@ impl Rule {
         candidates.min_by(|a, b| a.seconds(integrand, texels).total_cmp(&b.seconds(integrand, texels)))
     }
 
-    /// The largest error of A and of B over the whole domain, in exact arithmetic: absolute, or of albedos above 1 relative.
+    /// The largest error of A and of B over the whole domain, in exact arithmetic: absolute, or of albedos above 1
+    /// relative.
     pub fn bound(&self, integrand: impl Into<Integrand>) -> f64 {
         match integrand.into() {
             Integrand::Specular(lobe) => self.bounds.over_domain(lobe),
@@ -95,7 +97,8 @@ impl Rule {
         }
     }
 
-    /// The smallest error that a rule of those for devices promises, in exact arithmetic; 0 of closed forms, which need none.
+    /// The smallest error that a rule of those for devices promises, in exact arithmetic; 0 of closed forms, which
+    /// need none.
     pub fn sharpest_device_bound(integrand: impl Into<Integrand>) -> f64 {
         let integrand = integrand.into();
         if let Integrand::Diffuse(_) = integrand {
@@ -117,8 +120,8 @@ impl Rule {
         RULES.iter().map(|rule| rule.bound(integrand)).fold(f64::INFINITY, f64::min)
     }
 
-    /// How far A and B of a table by the rule may be from the truth where it has the value `value`: what [`Rule::bound`] says, and
-    /// for B, which spans ten decades, a share of itself.
+    /// How far A and B of a table by the rule may be from the truth where it has the value `value`: what
+    /// [`Rule::bound`] says, and for B, which spans ten decades, a share of itself.
     pub fn errors_at(&self, integrand: impl Into<Integrand>, alpha: f64, value: ScaleBias) -> ScaleBias {
         let (integrand, scale) = (integrand.into(), value.e().max(1.0));
         let (a, b) = match integrand {
@@ -137,8 +140,8 @@ impl Rule {
         let rule = self.errors_at(integrand, alpha, value);
         let scale = value.e().max(1.0);
         let f32s = scale * f32_arithmetic(integrand);
-        // For rules within 3e-6: twice the largest that was measured of rule and f32 together. (1 - v·h)^5 of an f32 errs by
-        // its power 4/5.
+        // For rules within 3e-6: twice the largest that was measured of rule and f32 together. (1 - v·h)^5 of an f32
+        // errs by its power 4/5.
         let b = (value.b.abs() / scale).sqrt();
         let of_b = if self.bound(integrand) <= 3e-6 { scale * (2e-6 * b * b.sqrt() + 2e-9) } else { f64::INFINITY };
         ScaleBias { a: rule.a + f32s, b: if rule.b.is_finite() { of_b.min(rule.b + f32s) } else { rule.b } }
@@ -192,7 +195,8 @@ impl Rule {
         }
     }
 
-    /// The same rule with a promise of its own: at most `bound` for every lobe, A and B. It is for tests of what watches over bounds.
+    /// The same rule with a promise of its own: at most `bound` for every lobe, A and B. It is for tests of what
+    /// watches over bounds.
     pub fn promising(self, bound: f64) -> Rule {
         Rule { bounds: Bounds::same(bound, ShareOfB::of(0.0, bound)), ..self }
     }
@@ -218,8 +222,9 @@ impl Rule {
     }
 }
 
-/// Whether n·l V depends on n·l and n·v alone, which the reference takes out of the integral over the azimuth, and the rules over half
-/// vectors out of nothing but know no other. A term that depends on v·h (of V-cavities, of Kelemen) has no rule here.
+/// Whether n·l V depends on n·l and n·v alone, which the reference takes out of the integral over the azimuth, and
+/// the rules over half vectors out of nothing but know no other. A term that depends on v·h (of V-cavities, of
+/// Kelemen) has no rule here.
 fn visibility_knows_no_azimuth(lobe: Microfacet) -> bool {
     match lobe.masking {
         Masking::HeightCorrelated
@@ -245,8 +250,8 @@ pub enum Integrator {
 }
 
 impl Integrator {
-    /// (A, B) at n·v = `mu` and `alpha`, both in [0, 1]; α = 0 is the limit of a mirror, also at n·v = 0. NaN where the rule
-    /// does not apply.
+    /// (A, B) at n·v = `mu` and `alpha`, both in [0, 1]; α = 0 is the limit of a mirror, also at n·v = 0. NaN where
+    /// the rule does not apply.
     pub fn integrate(&self, integrand: impl Into<Integrand>, mu: f64, alpha: f64) -> ScaleBias {
         let lobe = match integrand.into() {
             Integrand::Diffuse(diffuse) => return ScaleBias { a: diffuse.albedo(mu, roughness_of(alpha)), b: 0.0 },

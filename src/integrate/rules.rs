@@ -53,8 +53,8 @@ const L288_NODES: LSpaceRule = LSpaceRule { slope: 24, azimuth: 12, power: Power
 const L512_NODES: LSpaceRule = LSpaceRule { slope: 32, azimuth: 16, power: Power::Two };
 const L4608_NODES: LSpaceRule = LSpaceRule { slope: 96, azimuth: 48, power: Power::Four };
 
-/// A rule over half vectors; `bounds` are of GGX, Beckmann, Beckmann with Walter's term and Blinn-Phong, `charlie` without and with its
-/// fitted Λ. Above its limit Charlie errs as little with it as without.
+/// A rule over half vectors; `bounds` are of GGX, Beckmann, Beckmann with Walter's term and Blinn-Phong, `charlie`
+/// without and with its fitted Λ. Above its limit Charlie errs as little with it as without.
 const fn h(name: &'static str, nodes: [usize; 4], power: Power, bounds: [f64; 4], charlie: [f64; 2]) -> Rule {
     let [radial, azimuth, radial_horizon, azimuth_horizon] = nodes;
     let rule = HSpaceRule { radial, azimuth, radial_horizon, azimuth_horizon, power };
@@ -66,8 +66,8 @@ const fn h(name: &'static str, nodes: [usize; 4], power: Power, bounds: [f64; 4]
     Rule { name, method: Method::HSpace(rule), bounds }
 }
 
-/// A double exponential rule: as sharp for one lobe as for any other, but for Charlie below its limit and Charlie's B above it, whose
-/// bounds stand second.
+/// A double exponential rule: as sharp for one lobe as for any other, but for Charlie below its limit and Charlie's B
+/// above it, whose bounds stand second.
 const fn d(name: &'static str, nodes: [usize; 2], bounds: [f64; 2], of_b: [ShareOfB; 2]) -> Rule {
     let rule = ReferenceRule { outer: nodes[0], inner: nodes[1] };
     let ([bound, charlie], [of_b, of_b_of_charlie]) = (bounds, of_b);

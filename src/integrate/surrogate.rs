@@ -1,10 +1,10 @@
-//! A surrogate: (A, B) over all (n·v, α) by Chebyshev interpolation between the values of a rule at a few thousand points. A
-//! table of any size costs no more integrals than that, and a texel two short polynomials.
+//! A surrogate: (A, B) over all (n·v, α) by Chebyshev interpolation between the values of a rule at a few thousand
+//! points. A table of any size costs no more integrals than that, and a texel two short polynomials.
 //!
-//! With y = μ/α the first variable is s ∝ tanh(asinh(y)/c)^(1/q), 1 at μ = 1: it spreads the layer μ ~ α over many nodes, and
-//! its power q, about μ near 0, turns the term μ ln μ of Smith masking into s^q ln s, which a polynomial follows. The second is
-//! √r = α^¼. What is interpolated is E = A + B and what is left of B beyond a mirror's: B - (1-μ)⁵ E, which vanishes as α → 0
-//! (B itself changes over μ ~ 1, which s does not resolve at small α).
+//! With y = μ/α the first variable is s ∝ tanh(asinh(y)/c)^(1/q), 1 at μ = 1: it spreads the layer μ ~ α over many
+//! nodes, and its power q, about μ near 0, turns the term μ ln μ of Smith masking into s^q ln s, which a polynomial
+//! follows. The second is √r = α^¼. What is interpolated is E = A + B and what is left of B beyond a mirror's: B -
+//! (1-μ)⁵ E, which vanishes as α → 0 (B itself changes over μ ~ 1, which s does not resolve at small α).
 
 use super::ScaleBias;
 use super::l_space::{LSpaceRule, l_space_applies};
@@ -150,8 +150,8 @@ fn transposed(values: &[f64], width: usize) -> Vec<f64> {
     (0..width).flat_map(|i| values.iter().skip(i).step_by(width).copied()).collect()
 }
 
-/// Clenshaw's summation of four series side by side, since a step of one waits for the step before: Σ c_k T_k(x), an even number
-/// of coefficients c_k by `of`. Two steps at a time, so that the sums need not change places.
+/// Clenshaw's summation of four series side by side, since a step of one waits for the step before: Σ c_k T_k(x), an
+/// even number of coefficients c_k by `of`. Two steps at a time, so that the sums need not change places.
 #[inline(always)]
 fn clenshaw<R: Real, C>(coefficients: &[C], x: [R; 4], of: impl Fn(&C) -> [R; 4]) -> [R; 4] {
     let (zero, last) = (R::from(0.0), coefficients.len() - 1);

@@ -1,20 +1,25 @@
-//! The energy between specular and diffuse reflection: what a specular lobe leaves, and what it loses between its facets.
+//! The energy between specular and diffuse reflection: what a specular lobe leaves, and what it loses between its
+//! facets.
 //!
-//! Radiometry: a surface that receives radiance L from everywhere (W m⁻² sr⁻¹) has the irradiance E = π L (W m⁻²), and a BRDF
-//! f (sr⁻¹) reflects ∫ f L n·l dω towards v. With L = 1 (the white furnace) that is the directional albedo E(μ) = ∫ f n·l dω,
-//! and the reflected share of all the light is the average albedo E_avg = 2 ∫ E μ dμ, since dω's projection is π in all.
+//! Radiometry: a surface that receives radiance L from everywhere (W m⁻² sr⁻¹) has the irradiance E = π L (W m⁻²),
+//! and a BRDF f (sr⁻¹) reflects ∫ f L n·l dω towards v. With L = 1 (the white furnace) that is the directional albedo
+//! E(μ) = ∫ f n·l dω, and the reflected share of all the light is the average albedo E_avg = 2 ∫ E μ dμ, since dω's
+//! projection is π in all.
 //!
-//! *Multiple scattering.* A Smith lobe with F = 1 gives back E(μ) < 1: the rest, 1-E(μ), hits other facets. A reciprocal lobe
-//! that returns it has the form f_ms = k (1-E(μ_l))(1-E(μ_v)); its albedo k (1-E(μ_v)) ∫ (1-E(μ_l)) μ_l dω =
-//! k (1-E(μ_v)) π (1-E_avg) has to be 1-E(μ_v), so that k = 1/(π (1-E_avg)) (Kelemen and Szirmay-Kalos 2001; Kulla and Conty
-//! 2017). Turquin 2019 scales the lobe itself by 1/E at F = 1, and by 1 + F0 (1-E)/E below. Fdez-Agüera 2019 needs A and B alone,
-//! which the dfg family holds.
+//! *Multiple scattering.* A Smith lobe with F = 1 gives back E(μ) < 1: the rest, 1-E(μ), hits other facets. A
+//! reciprocal lobe
+//! that returns it has the form f_ms = k (1-E(μ_l))(1-E(μ_v)); its albedo k (1-E(μ_v)) ∫ (1-E(μ_l)) μ_l dω = k
+//! (1-E(μ_v)) π (1-E_avg) has to be 1-E(μ_v), so that k = 1/(π (1-E_avg)) (Kelemen and Szirmay-Kalos 2001; Kulla and
+//! Conty 2017). Turquin 2019 scales the lobe itself by 1/E at F = 1, and by 1 + F0 (1-E)/E below. Fdez-Agüera 2019
+//! needs A and B alone, which the dfg family holds.
 //!
-//! *The split.* A specular lobe with F0 reflects S(μ) = F0 A + B; what is left for a white diffuse base is (a) 1 - F(μ), as if
-//! only the mirror direction reflected; (b) 1 - S(μ_v), albedo scaling: exact in a furnace, but l and v do not play the same
-//! part, so that it is not reciprocal; (c) by the argument above with S for E, f_d = (1-S(μ_v))(1-S(μ_l)) / (π (1-S_avg)), which
-//! is both (Shirley et al. 1997; Kelemen and Szirmay-Kalos 2001; Ashikhmin and Shirley 2000 approximate it by polynomials). It is
-//! the product of one factor for each direction, (1-S(μ))/√(1-S_avg), over π: that factor is what a texel holds.
+//! *The split.* A specular lobe with F0 reflects S(μ) = F0 A + B; what is left for a white diffuse base is (a) 1 -
+//! F(μ), as if
+//! only the mirror direction reflected; (b) 1 - S(μ_v), albedo scaling: exact in a furnace, but l and v do not play
+//! the same part, so that it is not reciprocal; (c) by the argument above with S for E, f_d = (1-S(μ_v))(1-S(μ_l)) /
+//! (π (1-S_avg)), which is both (Shirley et al. 1997; Kelemen and Szirmay-Kalos 2001; Ashikhmin and Shirley 2000
+//! approximate it by polynomials). It is the product of one factor for each direction, (1-S(μ))/√(1-S_avg), over π:
+//! that factor is what a texel holds.
 
 use crate::ball::Ball;
 use crate::error::{Error, Result};
@@ -67,8 +72,8 @@ impl Energy {
         Ok(Energy { lobe, f0, channels })
     }
 
-    /// The values of a texel at `mu` with these integrals, on a row or column with these averages; zeros for the channels that
-    /// there are not.
+    /// The values of a texel at `mu` with these integrals, on a row or column with these averages; zeros for the
+    /// channels that there are not.
     pub fn values(&self, mu: f64, integral: ScaleBias<Ball>, average: ScaleBias<Ball>) -> [Ball; 3] {
         let (zero, one) = (Ball::default(), Ball::exact(1.0));
         match self.channels {

@@ -1,4 +1,5 @@
-//! A table's values as they fill, band by band: packed in the order of the file, and whatever the storage cannot hold remembered.
+//! A table's values as they fill, band by band: packed in the order of the file, and whatever the storage cannot hold
+//! remembered.
 
 use super::{Grid, Lut};
 use crate::error::{Error, Result};
@@ -24,8 +25,8 @@ impl<'a> Sheet<'a> {
         Ok(Sheet { lut, grid, values, excess: None })
     }
 
-    /// Takes the values of the α from row `first` of the grid on, in the order of the grid, each as the storage holds it or, where
-    /// it does not, as it is.
+    /// Takes the values of the α from row `first` of the grid on, in the order of the grid, each as the storage holds
+    /// it or, where it does not, as it is.
     pub fn put(&mut self, first: usize, values: &[f64]) {
         let (n, width, precision) = (self.lut.channels().len(), self.grid.mus.len(), self.values.precision());
         let (size, alphas) = (precision.bytes(), self.grid.alphas.len());

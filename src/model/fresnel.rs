@@ -11,8 +11,8 @@ pub fn schlick_weight<R: Number>(cosine: R) -> R {
     c2 * c2 * c
 }
 
-/// 1 - (1 - μ)^5 = μ (1 + q (1 + q (1 + q (1 + q)))) with q = 1 - μ: what is left where F0 = 0, without the cancellation of 1 - F
-/// at grazing angles.
+/// 1 - (1 - μ)^5 = μ (1 + q (1 + q (1 + q (1 + q)))) with q = 1 - μ: what is left where F0 = 0, without the
+/// cancellation of 1 - F at grazing angles.
 #[inline(always)]
 pub fn schlick_complement<R: Number>(cosine: R) -> R {
     let one = R::from(1.0);

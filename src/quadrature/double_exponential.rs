@@ -43,8 +43,8 @@ pub fn half_line_with_cusp(n: usize, limit: f64) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Nodes and weights for ∫_0^∞ f(z) dz of an even f with poles near ±i: z = sinh(π/2 sinh s), the trapezoid rule in s > 0
-/// with half a weight at 0. `limit` is the last s.
+/// Nodes and weights for ∫_0^∞ f(z) dz of an even f with poles near ±i: z = sinh(π/2 sinh s), the trapezoid rule in s
+/// > 0 with half a weight at 0. `limit` is the last s.
 pub fn half_line(n: usize, limit: f64) -> Vec<(f64, f64)> {
     let step = limit / (n as f64 - 1.0);
     (0..n)

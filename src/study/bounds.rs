@@ -1,8 +1,9 @@
-//! Where rules err most, measured by their bounds: a search that climbs towards the largest error/bound of every rule, lobe and
-//! channel, on the CPU and on devices. Whoever changes a rule or a bound learns from it what the bound has to be.
+//! Where rules err most, measured by their bounds: a search that climbs towards the largest error/bound of every
+//! rule, lobe and channel, on the CPU and on devices. Whoever changes a rule or a bound learns from it what the bound
+//! has to be.
 //!
-//! A hunt has one lobe, the rules that are measured against one truth, and the places where each has been worst. A round tries fresh
-//! starts and places near the worst ones, every rule at every place.
+//! A hunt has one lobe, the rules that are measured against one truth, and the places where each has been worst. A
+//! round tries fresh starts and places near the worst ones, every rule at every place.
 
 mod places;
 
@@ -128,7 +129,7 @@ pub fn check(search: &Search) -> Result<()> {
 fn hunts<'a>(seed: u64, rules: &[(Microfacet, Rule)], devices: &'a [Gpu]) -> Vec<Hunt<'a>> {
     let mut hunts: Vec<Hunt> = Vec::new();
     for &(lobe, rule) in rules {
-        let runners = std::iter::once(None).chain(devices.iter().filter(|_| on_device(&rule)).map(Some));
+        let runners = std::iter::once(None).chain(devices.iter().filter(|_| rule.runs_on_device()).map(Some));
         for gpu in runners {
             let truth = rule.yardstick();
             let same = |hunt: &&mut Hunt| hunt.lobe == lobe && hunt.truth == truth && hunt.on_devices == gpu.is_some();
@@ -154,10 +155,6 @@ fn hunts<'a>(seed: u64, rules: &[(Microfacet, Rule)], devices: &'a [Gpu]) -> Vec
         }
     }
     hunts
-}
-
-fn on_device(rule: &Rule) -> bool {
-    matches!(rule.method, Method::HSpace(_))
 }
 
 fn found(hunts: Vec<Hunt>) -> Search {
@@ -204,7 +201,8 @@ struct Worst {
 /// Summits that a track climbs at a time.
 const SUMMITS: usize = 5;
 
-/// Places nearer to each other than this, in the coordinates of [`Place`], are on the same summit: a decade of n·v is 0.03.
+/// Places nearer to each other than this, in the coordinates of [`Place`], are on the same summit: a decade of n·v is
+/// 0.03.
 const APART: f64 = 0.04;
 
 impl Hunt<'_> {

@@ -1,4 +1,5 @@
-//! Cost against the size of a table, on the CPU and on devices with and without their start: where a device begins to pay.
+//! Cost against the size of a table, on the CPU and on devices with and without their start: where a device begins to
+//! pay.
 
 use super::{Share, speed, timed};
 use crate::backend::cpu;
@@ -43,8 +44,8 @@ pub fn tolerance() -> f64 {
     Precision::F16.default_tolerance()
 }
 
-/// Sizes from 16 to `largest`, on the CPU and on these devices; a way is left where its next size would take more than `patience`
-/// seconds.
+/// Sizes from 16 to `largest`, on the CPU and on these devices; a way is left where its next size would take more
+/// than `patience` seconds.
 pub fn measure(
     lobe: Microfacet,
     largest: usize,
@@ -122,7 +123,8 @@ fn shortest<const N: usize>(mut work: impl FnMut() -> Result<[f64; N]>) -> Resul
     Ok(best)
 }
 
-/// Every device, and the smallest size from which on it bakes faster than the CPU, its start included; none where it never does.
+/// Every device, and the smallest size from which on it bakes faster than the CPU, its start included; none where it
+/// never does.
 pub fn pays(costs: &[Cost]) -> Vec<(&str, Option<usize>)> {
     let of_cpu = |size| costs.iter().find(|cost| cost.way == Way::Cpu && cost.size == size).map(|cost| cost.seconds);
     // Where the CPU was left for being slow, the device is not slower.

@@ -1,4 +1,5 @@
-//! Speed against accuracy: every method at every cost, timed against 1,024 samples in the same run, and how far it is off.
+//! Speed against accuracy: every method at every cost, timed against 1,024 samples in the same run, and how far it is
+//! off.
 
 use super::lookup;
 use super::technique::{Arithmetic, BASELINE, Step, Technique};
@@ -154,7 +155,8 @@ impl Run<'_> {
         PATIENCE[usize::from(self.plan.quick)]
     }
 
-    /// Point sets differ in their errors, not in their costs: f64 and devices do with Hammersley's, and a quick run too.
+    /// Point sets differ in their errors, not in their costs: f64 and devices do with Hammersley's, and a quick run
+    /// too.
     fn wants(&self, step: &Step, runner: Runner) -> bool {
         let (can, all) = match runner {
             Runner::Cpu(arithmetic) => (step.runs_in(arithmetic), !self.plan.quick && arithmetic == Arithmetic::F32),

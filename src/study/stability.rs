@@ -1,4 +1,5 @@
-//! Where formulas and methods fail: their errors over angle and roughness, far into the corners, in f64, in f32 and on devices.
+//! Where formulas and methods fail: their errors over angle and roughness, far into the corners, in f64, in f32 and
+//! on devices.
 
 mod maps;
 mod topics;

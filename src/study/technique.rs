@@ -1,4 +1,5 @@
-//! Every method that is compared, in one list: the field's estimators, the closed forms that stand in for a table, and ours.
+//! Every method that is compared, in one list: the field's estimators, the closed forms that stand in for a table,
+//! and ours.
 
 use crate::backend::cpu;
 use crate::backend::rows::{Work, bake_in};
@@ -170,8 +171,8 @@ impl Step {
         }
     }
 
-    /// Whether a CPU can do it in that arithmetic: interpolation, certification and the nodes of double exponential rules, which
-    /// come within 3.4e-22 of the ends, are f64 alone.
+    /// Whether a CPU can do it in that arithmetic: interpolation, certification and the nodes of double exponential
+    /// rules, which come within 3.4e-22 of the ends, are f64 alone.
     pub fn runs_in(&self, arithmetic: Arithmetic) -> bool {
         match self {
             Step::Samples(..) | Step::StandIn(_) => true,

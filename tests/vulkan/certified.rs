@@ -1,4 +1,5 @@
-//! Certified tables from devices: the same bytes as from the CPU, whatever the tiles; and the bounds of a device's values.
+//! Certified tables from devices: the same bytes as from the CPU, whatever the tiles; and the bounds of a device's
+//! values.
 
 use crate::DeviceTest;
 use crate::common::{Random, ggx};

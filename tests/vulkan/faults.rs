@@ -1,5 +1,5 @@
-//! Devices that lie or fail: what the cross-check must find, on tables spoiled by hand and on drivers that compute nothing
-//! or leave something out; and that every failed call ends in an error with everything freed.
+//! Devices that lie or fail: what the cross-check must find, on tables spoiled by hand and on drivers that compute
+//! nothing or leave something out; and that every failed call ends in an error with everything freed.
 
 use crate::common::{ggx, missing};
 use libtest_mimic::{Failed, Trial};
@@ -70,7 +70,8 @@ fn a_table_beyond_its_bound_fails() -> Result<(), Failed> {
     }
 }
 
-/// The mock driver of Debian's chromium-common says yes to everything and does nothing. SPLITSUM_MOCK_ICD names its JSON.
+/// The mock driver of Debian's chromium-common says yes to everything and does nothing. SPLITSUM_MOCK_ICD names its
+/// JSON.
 fn a_driver_that_computes_nothing() -> Trial {
     let name = "a driver that computes nothing is found out, and no file is written".to_owned();
     let Some(icd) = std::env::var_os("SPLITSUM_MOCK_ICD") else {

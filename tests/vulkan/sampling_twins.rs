@@ -153,8 +153,8 @@ fn twins() -> Vec<Twin> {
                 [value.a, value.b, 0.0, 0.0]
             }),
             arguments: |random| [0.01 + 0.99 * unit(random), small(random).max(0.01), 0.0, 0.0],
-            // What f32 arithmetic may add to a rule, 9e-7, but for samples that change sides at the horizon, where they are
-            // worth next to nothing.
+            // What f32 arithmetic may add to a rule, 9e-7, but for samples that change sides at the horizon, where
+            // they are worth next to nothing.
             ulps: 7.5,
             scale: 1.0,
         },
@@ -171,8 +171,8 @@ fn tables_are_those_of_the_cpu(gpu: &Gpu) -> Result<(), Failed> {
                 let device = bake_samples(gpu, lobe, &grid, sampler, &points)?.integrals;
                 let truth = bake_in::<Lanes>(lobe, &grid, Work::Samples(sampler, &points));
                 for (i, (got, truth)) in device.iter().zip(&truth).enumerate() {
-                    // A direction drawn by itself is rounded to 1e-7, which is 1e-7/α of a lobe's width; where half vectors are
-                    // drawn, the lobe is met as it stands.
+                    // A direction drawn by itself is rounded to 1e-7, which is 1e-7/α of a lobe's width; where half
+                    // vectors are drawn, the lobe is met as it stands.
                     let (blind, (_, alpha)) = (matches!(sampler, Sampler::Uniform | Sampler::Cosine), grid.point(i));
                     let allowed = if blind { 2e-6 + 1e-6 / alpha } else { 2e-6 } * truth.e().max(1.0);
                     let close = (got.a - truth.a).abs() <= allowed && (got.b - truth.b).abs() <= allowed;

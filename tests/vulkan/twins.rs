@@ -44,8 +44,8 @@ pub struct Twin {
     pub rust: Box<dyn Fn([f64; 4]) -> [f64; 4]>,
     /// Arguments from random numbers.
     pub arguments: fn(&mut Random) -> [f64; 4],
-    /// Ulps that the result may be off, of its own size and of `scale`: about one for each rounding on the longest path,
-    /// and two and a half where a division or a root is one of them, since Vulkan allows that much.
+    /// Ulps that the result may be off, of its own size and of `scale`: about one for each rounding on the longest
+    /// path, and two and a half where a division or a root is one of them, since Vulkan allows that much.
     pub ulps: f64,
     /// The size below which errors are counted as absolute.
     pub scale: f64,
@@ -197,7 +197,8 @@ fn twins(lobe: Microfacet, nodes: &HSpaceNodes) -> Vec<Twin> {
             wgsl: "vec4(h_space(p.x, p.y, Rule(16u, 8u, 20u, 8u)), 0.0, 0.0)",
             rust: Box::new(move |a| pair(h_space(lobe, a[0], a[1], &whole))),
             arguments: |random| [unit(random), small(random), 0.0, 0.0],
-            // What f32 arithmetic may add to a rule (integrate::rule::f32_arithmetic) is 1.2e-6; here there are fewer nodes.
+            // What f32 arithmetic may add to a rule (integrate::rule::f32_arithmetic) is 1.2e-6; here there are fewer
+            // nodes.
             ulps: 7.5,
             scale: 1.0,
         },

@@ -31,8 +31,8 @@ const POISON: [u32; 2] = [0x7fc0_dead; 2];
 pub struct DeviceBake {
     /// (A, B) at every point of the grid, in its order.
     pub integrals: Vec<ScaleBias>,
-    /// Seconds that the dispatches took by the device's own clock, without start, compilation and transfer; none where it
-    /// has no clock.
+    /// Seconds that the dispatches took by the device's own clock, without start, compilation and transfer; none
+    /// where it has no clock.
     pub device_seconds: Option<f64>,
 }
 
@@ -97,7 +97,8 @@ fn largest_tile(gpu: &Gpu, group: usize) -> usize {
     LARGEST_TILE.min(by_buffer).min(by_groups)
 }
 
-/// A tile that would have taken [`TARGET`], but no more than four times the last one: the first is slowed by compilation.
+/// A tile that would have taken [`TARGET`], but no more than four times the last one: the first is slowed by
+/// compilation.
 fn next_tile(tile: usize, elapsed: Duration) -> usize {
     let ratio = TARGET.as_secs_f64() / elapsed.as_secs_f64().max(1e-6);
     (tile as f64 * ratio.min(4.0)) as usize

@@ -68,7 +68,8 @@ impl Instance {
         if validate {
             create = create.push_next(&mut features).push_next(&mut messenger);
         }
-        // SAFETY: everything `create` points to lives to the end of this function; the messages live as long as the instance.
+        // SAFETY: everything `create` points to lives to the end of this function; the messages live as long as the
+        // instance.
         let raw = unsafe { entry.create_instance(&create, None) }.map_err(refused)?;
         let mut instance = Instance { raw, debug: None, messages, _entry: entry };
         if validate {
@@ -125,7 +126,8 @@ unsafe extern "system" fn record_message(
     data: *const vk::DebugUtilsMessengerCallbackDataEXT<'_>,
     messages: *mut c_void,
 ) -> vk::Bool32 {
-    // SAFETY: `messages` is the mutex given to messenger_info, which outlives the instance; `data` is valid for the call.
+    // SAFETY: `messages` is the mutex given to messenger_info, which outlives the instance; `data` is valid for the
+    // call.
     let (messages, text) = unsafe {
         let text = (*data).message_as_c_str().map(CStr::to_string_lossy).unwrap_or_default();
         (&*messages.cast::<Mutex<Vec<String>>>(), text)

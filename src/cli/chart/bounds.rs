@@ -2,7 +2,7 @@
 
 use super::{Devices, devices};
 use crate::cli::progress::Progress;
-use crate::cli::{output, print};
+use crate::cli::{output, print, standard_output};
 use crate::error::{Error, Result};
 use crate::study::Machine;
 use crate::study::bounds::{Finding, Plan, Search, check, everything, search};
@@ -36,7 +36,7 @@ pub fn run(arguments: &BoundsArgs) -> Result<()> {
         let cure = "give a number in that range";
         return Err(Error::bad_input("seconds", "0 to 3e7", format!("{seconds:?}"), cure));
     }
-    arguments.output.iter().try_for_each(|file| output::check(file))?;
+    arguments.output.as_ref().map_or_else(standard_output::check, |file| output::check(file))?;
     let devices = devices(arguments.device.as_deref(), arguments.cpu)?;
     let progress = Progress::of_work("searching", arguments.quiet);
     let found =

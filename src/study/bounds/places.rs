@@ -24,8 +24,8 @@ pub struct Places {
 /// 1 - p at the upper end of a coordinate, apart from p = 1 itself: the last number below 1.
 const GAP: f64 = 1.2e-16;
 
-/// p at the coordinate c: -1 is `least` and 1 the last number below 1, both ends crowded by the logarithm; beyond them lie the edges
-/// `edge` and 1.
+/// p at the coordinate c: -1 is `least` and 1 the last number below 1, both ends crowded by the logarithm; beyond
+/// them lie the edges `edge` and 1.
 fn value(c: f64, least: f64, edge: f64) -> f64 {
     match c {
         ..=-1.0 => edge,
@@ -72,7 +72,8 @@ impl Places {
         Place { mu, alpha: alpha.clamp(SMALLEST_ALPHA, 1.0) }
     }
 
-    /// The i-th start: crowded at all edges, spread like a table's texels, or where the integrals have a layer or rules a limit.
+    /// The i-th start: crowded at all edges, spread like a table's texels, or where the integrals have a layer or
+    /// rules a limit.
     pub fn start(&mut self, i: usize) -> Place {
         // A fortieth of the coordinates lies beyond either end: on the edge itself.
         let (x, y) = (self.random.between(-1.05, 1.05), self.random.between(-1.05, 1.05));
@@ -82,8 +83,8 @@ impl Places {
             0..3 => crowded,
             3 => self.within(u, r * r),
             4 => self.within(crowded.mu, r * r),
-            // n·v ~ α, where shadows begin; n·v ~ √α, where Charlie's ring touches the horizon; sin θ_v ~ α, where a lobe stands around the
-            // normal.
+            // n·v ~ α, where shadows begin; n·v ~ √α, where Charlie's ring touches the horizon; sin θ_v ~ α, where a
+            // lobe stands around the normal.
             5 if u < 0.5 => self.within(crowded.alpha * few, crowded.alpha),
             5 => self.within(crowded.alpha.sqrt() * few, crowded.alpha),
             6 => self.within(1.0 - (crowded.alpha * few) * (crowded.alpha * few), crowded.alpha),

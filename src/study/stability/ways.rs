@@ -1,4 +1,5 @@
-//! Ways of integrating GGX that are mapped: the loop that engines ship, estimators, quadrature; and sums of many samples.
+//! Ways of integrating GGX that are mapped: the loop that engines ship, estimators, quadrature; and sums of many
+//! samples.
 
 use crate::backend::rows::{Method, Work, bake_in, rows};
 use crate::integrate::ScaleBias;
