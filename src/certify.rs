@@ -2,6 +2,7 @@
 //! [`stages`], [`decision`], [`tally`]); or it is checked on a sample: a device's against the CPU, any against the
 //! reference ([`deviation`]).
 
+mod decider;
 pub mod decision;
 pub mod deviation;
 pub mod stages;

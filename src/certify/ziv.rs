@@ -6,6 +6,7 @@
 //! The stages check each other. A value that differs from that of a finer stage by more than both may err is a fault,
 //! of the device or of a bound: the table is thrown away, not mended.
 
+use super::decider::{Decider, MARGIN, Verdict};
 use super::decision::{Task, check_apart};
 use super::deviation::{check_range, sample, scatter};
 use super::stages::{ErrorsAt, Stages, summary};
@@ -23,10 +24,6 @@ use rayon::prelude::*;
 
 /// Texels that pass through the second stage though the first has decided them, so that one checks the other.
 const AUDITED: usize = 64;
-
-/// What earlier stages keep of the error of the last rule before the reference: theirs and its own may point apart,
-/// and a thousandth more, since the share of B is taken of the earlier stage's B.
-const MARGIN: f64 = 2.001;
 
 /// A table that a device has computed.
 #[derive(Clone, Copy, Debug)]
@@ -142,74 +139,6 @@ impl Texels {
     }
 }
 
-/// What a stage has decided of some texels.
-#[derive(Clone, Copy, Default)]
-struct Verdict {
-    /// How many.
-    decided: usize,
-    /// The most that a value of the others may be off.
-    error: f64,
-}
-
-impl Verdict {
-    fn with(self, other: Verdict) -> Verdict {
-        Verdict { decided: self.decided + other.decided, error: self.error.max(other.error) }
-    }
-}
-
-/// A stage as texels are decided by it.
-struct Decider<'a, E> {
-    task: &'a Task<'a>,
-    averages: &'a [ScaleBias<Ball>],
-    /// What the stage's A and B may be off, by its own type: it is asked at every texel.
-    errors_at: E,
-    /// [`MARGIN`] times the error of this rule is kept.
-    margin: Option<Rule>,
-    /// Whether mirrors are in f64, and err by no more than its arithmetic.
-    exact_mirrors: bool,
-    rounds_correctly: bool,
-}
-
-impl<E: Fn(f64, ScaleBias) -> ScaleBias + Sync> Decider<'_, E> {
-    /// The integral at (n·v, α) with what it may be off.
-    fn integral(&self, mu: f64, alpha: f64, value: ScaleBias) -> ScaleBias<Ball> {
-        let integrand = self.task.lut.integrand();
-        if let (true, 0.0, Integrand::Specular(lobe)) = (self.exact_mirrors, alpha, integrand) {
-            let mu = Ball::exact(mu);
-            return ScaleBias::mirror(mu, lobe.smooth_limit(mu));
-        }
-        let mut errors = (self.errors_at)(alpha, value);
-        if let Some(margin) = &self.margin {
-            errors.add(MARGIN, margin.errors_at(integrand, alpha, value));
-        }
-        value.within(errors)
-    }
-
-    /// Takes over a texel's values if this stage decides them, and the best guess if it does not.
-    fn texel(&self, (row, column): (usize, usize), value: ScaleBias, values: &mut [f64], open: &mut bool) -> Verdict {
-        let (mu, alpha) = (self.task.grid.mus[column], self.task.grid.alphas[row]);
-        let integral = self.integral(mu, alpha, value);
-        let decided = self.rounds_correctly && self.task.decide(mu, integral, self.averages[row], values);
-        *open = !decided;
-        if decided {
-            return Verdict { decided: 1, error: 0.0 };
-        }
-        Verdict { decided: 0, error: self.task.store(mu, integral, self.averages[row], values) }
-    }
-
-    /// The same for the open texels of a row.
-    fn row(&self, row: usize, integrals: &[ScaleBias], values: &mut [f64], open: &mut [bool]) -> Verdict {
-        let texels = values.chunks_exact_mut(values.len() / open.len()).zip(open).zip(integrals).enumerate();
-        let mut verdict = Verdict::default();
-        for (column, ((values, open), &value)) in texels {
-            if *open {
-                verdict = verdict.with(self.texel((row, column), value, values, open));
-            }
-        }
-        verdict
-    }
-}
-
 impl Run<'_> {
     fn integrand(&self) -> Integrand {
         self.task.lut.integrand()
@@ -263,19 +192,29 @@ impl Run<'_> {
         let decided = self.decide(&texels, &integrals, &decider);
         if self.stages.is_reference(index) {
             self.tally.by_reference = decided;
-            let distance = |(place, &integral): (usize, &ScaleBias)| {
-                let texel = texels.get(place);
-                let distance = || {
-                    let average = averages[texel / grid.mus.len()];
-                    self.task.distance_to_boundary(grid.point(texel).0, integral, average)
-                };
-                (open[texel] && !self.open[texel]).then(distance)
-            };
-            self.tally.smallest_distance = integrals.iter().enumerate().filter_map(distance).min_by(f64::total_cmp);
+            self.tally.smallest_distance = self.smallest_distance(&texels, &integrals, &averages, &open);
         }
         self.report(format!("CPU f64, {}", baker.rule.name), &errors_at, asked, decided);
         self.seen = Some(Seen { rule: baker.rule, texels, integrals });
         Ok(())
+    }
+
+    /// The smallest distance from a boundary of rounding among the texels that were `open` and are so no more.
+    fn smallest_distance(
+        &self,
+        texels: &Texels,
+        integrals: &[ScaleBias],
+        averages: &[ScaleBias<Ball>],
+        open: &[bool],
+    ) -> Option<f64> {
+        let grid = self.task.grid;
+        let decided = (0..texels.len()).filter(|&place| open[texels.get(place)] && !self.open[texels.get(place)]);
+        let distance = |place: usize| {
+            let texel = texels.get(place);
+            let average = averages[texel / grid.mus.len()];
+            self.task.distance_to_boundary(grid.point(texel).0, integrals[place], average)
+        };
+        decided.map(distance).min_by(f64::total_cmp)
     }
 
     /// Takes note of what a stage did.
