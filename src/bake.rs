@@ -211,8 +211,9 @@ impl Job<'_> {
         let count = lut.channels().len();
         let (mut values, mut worst) = (Vec::with_capacity(points.len() * count), 0.0f64);
         for (i, &integral) in points.iter().enumerate() {
-            let integral = integration.within_bound(integral, 0.0);
-            let channels = lut.values(band.point(i).0, integral, averages[i / band.mus.len()]);
+            let (mu, alpha) = band.point(i);
+            let integral = integration.within_bound(alpha, integral, 0.0);
+            let channels = lut.values(mu, integral, averages[i / band.mus.len()]);
             for Ball { value, error } in channels.into_iter().take(count) {
                 worst = worst.max(error / value.abs().max(1.0));
                 values.push(precision.pulled_in(value, error, if at_most_one { error } else { 0.0 }));

@@ -72,9 +72,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     };
     let outcome = match cli.command {
         Command::Bake(arguments) => bake::run(*arguments),
-        Command::Chart(arguments) => resources::start_threads(None).and_then(|()| chart::run(&arguments)),
-        Command::Furnace(arguments) => resources::start_threads(None).and_then(|()| furnace::run(&arguments)),
-        Command::Preview(arguments) => resources::start_threads(None).and_then(|()| preview::run(&arguments)),
+        Command::Chart(arguments) => chart::run(&arguments),
+        Command::Furnace(arguments) => furnace::run(&arguments),
+        Command::Preview(arguments) => preview::run(&arguments),
         Command::Devices(arguments) => devices::run(&arguments),
     };
     match outcome {

@@ -76,10 +76,11 @@ impl Request {
                 }
             }
             Accuracy::Rule(rule) => {
-                if !rule.applies_to(integrand) || rule.bound(integrand).is_infinite() {
+                let promises = |&alpha: &f64| rule.bound_at(integrand, alpha).is_finite();
+                if !rule.applies_to(integrand) || !grid.alphas.iter().all(promises) {
                     return Err(Error::bad_input(
                         "rule",
-                        "one that serves for the model over the whole domain",
+                        "one that serves for the model at every roughness of the axis",
                         rule.name,
                         "choose reference, a rule whose name begins with h, or closed-form for a diffuse lobe",
                     ));

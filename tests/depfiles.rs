@@ -62,7 +62,8 @@ fn cases() -> Vec<Case> {
         let length = 1 + random(7);
         names.push((0..length).map(|_| alphabet[random(alphabet.len())]).collect());
     }
-    names.push("a folder/of tables/a:b#c".into());
+    let words = ["define", "undefine", "override", "export", "private", "include", ".hidden"];
+    names.extend(["a folder/of tables/a:b#c"].into_iter().chain(words).map(String::from));
     let cases = names.into_iter().flat_map(|name| [true, false].map(|target| Case { name: name.clone(), target }));
     cases.filter(Case::is_readable).collect()
 }
@@ -227,6 +228,7 @@ fn unreadable_names_are_refused() -> Result<(), Failed> {
         ("~", "home"),
         ("a(b)", "archive"),
         ("a%b*", "no % beside"),
+        (".PHONY", "capitals after a dot"),
     ] {
         refused(&[&output[..], &[name]].concat(), 2, words);
     }

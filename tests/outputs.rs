@@ -146,11 +146,14 @@ fn what_killed_bakes_have_left_is_removed() {
         file
     };
     fs::create_dir(folder.path().join(".splitsum-folder.tmp")).unwrap();
-    drop((file(".splitsum-old.tmp", 120), file(".splitsum-young.tmp", 5), file(".splitsum-notes.txt", 120)));
-    let written = file(".splitsum-written.tmp", 120);
+    drop((file(".splitsum-oldone.tmp", 120), file(".splitsum-recent.tmp", 5), file(".splitsum-notes.txt", 120)));
+    // Ours have six letters.
+    drop(file(".splitsum-my-notes.tmp", 120));
+    let written = file(".splitsum-writes.tmp", 120);
     written.lock().unwrap();
     ok(&folder, &format!("{CPU} -o a.exr"));
-    let kept = [".splitsum-notes.txt", ".splitsum-written.tmp", ".splitsum-young.tmp", "a.exr"];
+    let kept =
+        [".splitsum-my-notes.tmp", ".splitsum-notes.txt", ".splitsum-recent.tmp", ".splitsum-writes.tmp", "a.exr"];
     assert_eq!(contents(folder.path()).into_keys().collect::<Vec<_>>(), kept);
     assert!(folder.path().join(".splitsum-folder.tmp").exists());
 }
@@ -261,4 +264,35 @@ fn messages_stay_short() {
     short(&with("bake --size 2 --frobnicate"), 2, &["--frobnicate"]);
     short(&with("bake --tolerance"), 2, &["more characters", "--tolerance"]);
     short(&with("bake --rule h56 --tolerance 1e-3 --config"), 2, &["cannot be used with"]);
+}
+
+#[test]
+fn files_are_compared_in_folders_that_are_yet_to_be_made() {
+    let folder = tempdir().unwrap();
+    configure(&folder, "c.toml", &["out/dfg.exr", "out/../out/dfg.exr"]);
+    refused(&folder, "bake --config c.toml", 4, &["an output of its own"]);
+    refused(&folder, "bake --size 2 -MF out/../out/dfg.exr", 2, &["a file of its own"]);
+    assert!(!folder.path().join("out").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_that_standard_output_goes_to_is_no_dependency_file() {
+    let folder = tempdir().unwrap();
+    let out = File::create(folder.path().join("z.exr")).unwrap();
+    let output = splitsum(folder.path(), &format!("{CPU} -o - -MF z.exr")).stdout(out).output().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(stderr(&output).contains("a file of its own"), "{}", stderr(&output));
+}
+
+#[cfg(unix)]
+#[test]
+fn links_in_a_circle_stay_links() {
+    let folder = tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    std::os::unix::fs::symlink(path("b.exr"), path("a.exr")).unwrap();
+    std::os::unix::fs::symlink(path("a.exr"), path("b.exr")).unwrap();
+    let output = run(&folder, &format!("{CPU} -o a.exr"));
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert!(fs::read_link(path("a.exr")).is_ok());
 }

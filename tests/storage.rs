@@ -70,7 +70,11 @@ fn what_is_not_certified_is_not_pushed_into_the_range_either() {
     // An albedo that stays below 1 is meant to be 1 where the rule says a little more.
     ok(&folder, "bake --backend cpu --size 64 --certify off --rule h56 --precision unorm16 --x nov,edges -q -o c.png");
     // A rule that promises nothing of a lobe is refused for that.
-    let output = run(&folder, "bake --lut sheen --backend cpu --size 4 --certify off --rule d6144 -o d.exr");
+    let output = run(&folder, "bake --lut sheen --backend cpu --size 64 --certify off --rule d6144 -o d.exr");
+    ok(
+        &folder,
+        "bake --lut sheen --y roughness,min=0.07 --backend cpu --size 4 --certify off --rule d6144 -q -o d.exr",
+    );
     assert!(
         output.status.code() == Some(4) && stderr(&output).contains("rule: expected one that serves"),
         "{}",

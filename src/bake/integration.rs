@@ -33,20 +33,17 @@ pub(super) struct Checked {
 }
 
 impl Integration<'_> {
-    /// What an integral may be off.
-    pub fn bound(&self) -> f64 {
-        self.baker.rule.bound(self.integrand) + self.arithmetic()
-    }
-
-    /// Of it the arithmetic: f32's on a device; the rules' bounds are rounded up by far more than f64 adds.
+    /// What arithmetic adds to the rule's error: f32's on a device; the rules' bounds are rounded up by far more than f64 adds.
     fn arithmetic(&self) -> f64 {
         if self.gpu.is_some() { f32_arithmetic(self.integrand) } else { 0.0 }
     }
 
-    /// A value with what it may be off: of albedos above 1 relative.
-    pub fn within_bound(&self, value: ScaleBias, besides: f64) -> ScaleBias<Ball> {
-        let error = (self.bound() + besides) * value.e().max(1.0);
-        value.within(ScaleBias { a: error, b: error })
+    /// A value at an α with what it may be off, `besides` included: of albedos above 1 relative.
+    pub fn within_bound(&self, alpha: f64, value: ScaleBias, besides: f64) -> ScaleBias<Ball> {
+        let mut errors = self.baker.rule.errors_at(self.integrand, alpha, value);
+        let more = (self.arithmetic() + besides) * value.e().max(1.0);
+        errors.add(1.0, ScaleBias { a: more, b: more });
+        value.within(errors)
     }
 
     /// The average of each row of a grid.
@@ -55,12 +52,15 @@ impl Integration<'_> {
         let directions = grid.at_directions(nodes.iter().map(|node| node.0).collect());
         let averages = averages(&nodes, &self.over(&directions, &|_| ())?);
         let error = average_error(self.integrand);
-        Ok(averages.into_iter().map(|average| self.within_bound(average, error)).collect())
+        let row = |(average, &alpha): (ScaleBias, &f64)| self.within_bound(alpha, average, error);
+        Ok(averages.into_iter().zip(&grid.alphas).map(row).collect())
     }
 
     /// Integrates over a grid, and checks what comes out.
     pub fn over(&mut self, grid: &Grid, progress: Progress) -> Result<Vec<ScaleBias>> {
-        let arithmetic = self.arithmetic();
+        let bound =
+            grid.alphas.iter().map(|&alpha| self.baker.rule.bound_at(self.integrand, alpha)).fold(0.0, f64::max);
+        let bound = bound + self.arithmetic();
         let Integration { integrand, baker, gpu, checked, .. } = self;
         let rule = &baker.rule;
         let start = std::time::Instant::now();
@@ -78,7 +78,7 @@ impl Integration<'_> {
             let found = deviation::cross_check(*integrand, grid, rule, &integrals)?;
             checked.cross_check = checked.cross_check.with(found);
         }
-        let found = deviation::measure(*integrand, grid, rule, arithmetic, &integrals, self.measured_texels)?;
+        let found = deviation::measure(*integrand, grid, rule, bound, &integrals, self.measured_texels)?;
         checked.measured = checked.measured.with(found);
         checked.seconds.check += start.elapsed().as_secs_f64();
         Ok(integrals)

@@ -36,7 +36,7 @@ impl Task<'_> {
         let mut decided = true;
         for (stored, channel) in values.iter_mut().zip(self.lut.values(mu, integral, average)) {
             decided &= self.precision.nearest(channel.low()) == self.precision.nearest(channel.high());
-            *stored = self.stored(channel.value);
+            *stored = self.stored(channel);
         }
         decided
     }
@@ -55,14 +55,16 @@ impl Task<'_> {
             // A division is dear, and values above 1 are few.
             let size = channel.value.abs();
             worst = worst.max(if size > 1.0 { channel.error / size } else { channel.error });
-            *stored = self.stored(channel.value);
+            *stored = self.stored(channel);
         }
         worst
     }
 
     /// The value nearest to this one; this one itself where the storage does not reach so far.
     #[inline]
-    fn stored(&self, value: f64) -> f64 {
+    fn stored(&self, channel: Ball) -> f64 {
+        // No channel is negative, though an estimate of what is nearly 0 may be.
+        let value = if channel.value < 0.0 && channel.high() >= 0.0 { 0.0 } else { channel.value };
         let nearest = self.precision.nearest(value);
         if self.precision.holds(nearest) { unsigned(nearest) } else { value }
     }

@@ -100,13 +100,13 @@ pub(super) fn sample(grid: &Grid) -> impl Iterator<Item = usize> {
     corners(grid).into_iter().chain(runs)
 }
 
-/// Measures a table by `rule` against the reference, at the corners and at others scattered over it, so many `texels`
-/// in all; an error beyond what the rule and the `arithmetic` promise fails.
+/// Measures a table by `rule` against the reference, at the corners and at others scattered over it, so many `texels` in
+/// all; an error beyond the `bound` fails.
 pub fn measure(
     integrand: impl Into<Integrand>,
     grid: &Grid,
     rule: &Rule,
-    arithmetic: f64,
+    bound: f64,
     table: &[ScaleBias],
     texels: usize,
 ) -> Result<Deviation> {
@@ -122,7 +122,6 @@ pub fn measure(
     };
     let truth = cpu::bake_at(integrand, grid, &rule.yardstick(), &sample);
     let (worst, (mu, alpha)) = Deviation::between(grid, &sample, table, &truth);
-    let bound = rule.bound(integrand) + arithmetic;
     if worst.within(bound) {
         return Ok(worst);
     }

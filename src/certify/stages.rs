@@ -29,7 +29,7 @@ pub fn rules(task: &Task) -> Vec<Rule> {
         _ => Rule::for_rounding(integrand, texels),
     };
     // At a roughness where Charlie's rules are as sharp as any lobe's.
-    let error = |rule: &Rule| rule.errors_at(integrand, 1.0, ScaleBias { a: 1.0, b: 0.0 }).a;
+    let error = |rule: &Rule| rule.bound_at(integrand, 1.0);
     let mut rules: Vec<Rule> = first.into_iter().collect();
     for rule in [D10240, REFERENCE, CLOSED_FORM].into_iter().filter(|rule| rule.applies_to(integrand)) {
         if rules.last().is_none_or(|last| error(&rule) < error(last)) {

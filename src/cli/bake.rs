@@ -100,9 +100,9 @@ pub fn run(arguments: BakeArgs) -> Result<()> {
     }
     let depfile = dependency_file(&arguments, &jobs)?;
     names::check(&arguments, &jobs, depfile.as_deref())?;
-    resources::start_threads(arguments.threads)?;
-    resources::check_bakes(&jobs)?;
-    let backend = open(&arguments)?;
+    let bytes = resources::of_bakes(&jobs);
+    resources::start(bytes, arguments.threads, resources::FEWER)?;
+    let backend = open(&arguments, bytes)?;
     // Last, since it makes the folder of the default output.
     for name in jobs.iter().map(|job| &job.output).chain(&depfile) {
         output::check(name)?;
@@ -142,7 +142,7 @@ fn bake(job: &Job, backend: &Backend, arguments: &BakeArgs) -> Result<Vec<Baked>
     Ok(reports.into_iter().map(|report| Baked { output: output.clone(), report }).collect())
 }
 
-fn open(arguments: &BakeArgs) -> Result<Backend> {
+fn open(arguments: &BakeArgs, bytes: u64) -> Result<Backend> {
     let choice: BackendChoice = arguments.backend.parse()?;
     let options = GpuOptions { device: arguments.device.clone(), validate: arguments.validate, tile: arguments.tile };
     if choice == BackendChoice::Cpu && options != GpuOptions::default() {
@@ -152,7 +152,7 @@ fn open(arguments: &BakeArgs) -> Result<Backend> {
     if options.tile == Some(0) {
         return Err(Error::bad_input("tile", "at least 1", "0", "give a number of texels"));
     }
-    Backend::open(choice, &options)
+    resources::open_backend(choice, &options, bytes)
 }
 
 fn dependency_file(arguments: &BakeArgs, jobs: &[Job]) -> Result<Option<String>> {

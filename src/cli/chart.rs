@@ -118,7 +118,7 @@ impl StudyArgs {
         if let Some(file) = &self.from {
             return read_study(file);
         }
-        resources::check_memory(STUDY_BYTES)?;
+        resources::start(STUDY_BYTES, None, resources::ALLOW)?;
         let devices = devices(self.device.as_deref(), self.cpu)?;
         let measured = measure(&devices, &Progress::of_work("measuring", self.quiet))?;
         let saved = Saved { tool: TOOL.into(), machine: devices.machine(), measured };

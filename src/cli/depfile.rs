@@ -35,6 +35,8 @@ pub fn complain(what: &str, name: &str, side: Side) -> Option<Complaint> {
         "no bracket at the end of a name, which make takes for a member of an archive"
     } else if side == Side::Target && name.contains('%') && is_pattern(name) {
         "no % beside *, ? or [ in a name"
+    } else if side == Side::Target && is_special(name) {
+        "no name of capitals after a dot, which make takes for an order"
     } else if side == Side::Dependency && name.ends_with([' ', '\t']) {
         "no blank at the end of a name"
     } else {
@@ -48,12 +50,19 @@ pub fn complain(what: &str, name: &str, side: Side) -> Option<Complaint> {
 pub fn rule(targets: &[&str], dependency: Option<&str>) -> String {
     let targets: Vec<String> = targets.iter().map(|name| escape(name, Side::Target)).collect();
     let dependency = dependency.map(|name| {
-        // Without something before it, make takes a name with an = for a variable. These are empty, and nothing to
-        // ninja.
-        let guard = if name.contains('=') { "$< $< " } else { "" };
+        // Without something before it, make takes a name with an = for a variable, and these words for the beginning
+        // or the end of one. The guards are empty, and nothing to ninja.
+        let definition = matches!(name, "define" | "undefine");
+        let guard = if definition || name.contains('=') { "$< $< " } else { "" };
         format!(" {guard}{}", escape(name, Side::Dependency))
     });
     format!("{}:{}\n", targets.join(" "), dependency.unwrap_or_default())
+}
+
+/// Whether the name is like that of a special target: `.PHONY`.
+fn is_special(name: &str) -> bool {
+    let capitals = |rest: &str| !rest.is_empty() && rest.chars().all(|c| c.is_ascii_uppercase() || c == '_');
+    name.strip_prefix('.').is_some_and(capitals)
 }
 
 /// Whether make looks for files that match the name.

@@ -88,7 +88,7 @@ pub fn run(arguments: &FurnaceArgs) -> Result<()> {
     // A texel has its integral, and of each furnace an energy, what is drawn of it and three bytes of colour; a row
     // those of the directions of its averages.
     let (maps, size) = (F0S.len() * splits.len(), arguments.size);
-    resources::check_memory((size * size * (16 + maps * 24) + size * 4096) as u64)?;
+    resources::start((size * size * (16 + maps * 24) + size * 4096) as u64, None, resources::ALLOW)?;
     let grid = Grid::new(&axis(Parameter::Nov)?, &axis(Parameter::Roughness)?)?;
     let rule = Rule::for_cpu(material.lobe, TOLERANCE, grid.len()).unwrap_or(REFERENCE);
     let furnaces = furnaces(material, &F0S, splits, &grid, &rule)?;

@@ -37,7 +37,12 @@ pub fn check(name: &str) -> Result<()> {
     let target = resolve(path);
     let folder = folder_of(&target);
     fs::metadata(folder).map_err(failed("find the folder of", name, "create it first"))?;
-    let existing = fs::metadata(path).ok();
+    let existing = match fs::metadata(path) {
+        Ok(existing) => Some(existing),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+        // Links in a circle, for one.
+        Err(error) => return Err(failed("write", name, "choose another place with -o")(error)),
+    };
     if existing.is_some() {
         access(path).map_err(failed("write", name, "make it writable, or choose another place with -o"))?;
     }

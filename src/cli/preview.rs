@@ -2,8 +2,8 @@
 
 use super::progress::Progress;
 use super::{output, resources};
+use crate::backend::BackendChoice;
 use crate::backend::vulkan::gpu::GpuOptions;
-use crate::backend::{Backend, BackendChoice};
 use crate::error::{Error, Result};
 use crate::model::{Microfacet, Ndf};
 use crate::preview::{ROUGHNESSES, Row, Scene, render};
@@ -38,10 +38,12 @@ pub fn run(arguments: &PreviewArgs) -> Result<()> {
     output::check_picture(name)?;
     // A pixel of a row has its light, and of the picture its colour, twice while it is encoded; the most scenes have
     // six rows.
-    resources::check_memory((ROUGHNESSES.len() * size * size * (24 + 6 * 6) + (16 << 20)) as u64)?;
+    let bytes = (ROUGHNESSES.len() * size * size * (24 + 6 * 6) + (16 << 20)) as u64;
+    resources::start(bytes, None, resources::ALLOW)?;
     let rows = rows(scene)?;
     let choice: BackendChoice = arguments.backend.parse()?;
-    let backend = Backend::open(choice, &GpuOptions { device: arguments.device.clone(), ..GpuOptions::default() })?;
+    let options = GpuOptions { device: arguments.device.clone(), ..GpuOptions::default() };
+    let backend = resources::open_backend(choice, &options, bytes)?;
     let progress = Progress::of_pixels(name, rows.len() * ROUGHNESSES.len() * size * size);
     let picture = render(&rows, *size, &backend, &|pixels| progress.advance(pixels))?;
     drop(progress);

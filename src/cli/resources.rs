@@ -1,6 +1,8 @@
 //! Memory and threads: what a bake takes is compared with what the system gives, before any work is done.
 
 use super::table_args::Job;
+use crate::backend::vulkan::gpu::GpuOptions;
+use crate::backend::{Backend, BackendChoice};
 use crate::bake::working_bytes;
 use crate::error::{Complaint, Error, Result};
 use crate::request::Request;
@@ -10,51 +12,64 @@ use std::path::Path;
 /// Bytes besides tables and bands: the program itself, fits and nodes, the lines that an encoder holds.
 const BASE: u64 = 32 << 20;
 
-/// Bytes of addresses that the C library sets aside for each thread that allocates (glibc's arenas), beside its stack
-/// of 2 MiB.
+/// Bytes of addresses that a thread takes: its stack, and what the C library sets aside for what it allocates (glibc's arenas).
 const ADDRESSES_OF_A_THREAD: u64 = 66 << 20;
 
-/// Starts so many threads, or one for each core. A single one is the one that runs already.
-pub fn start_threads(threads: Option<usize>) -> Result<()> {
+/// Bytes of data that a thread takes: its stack, and what of its arena it uses.
+const DATA_OF_A_THREAD: u64 = 4 << 20;
+
+/// Bytes of addresses and of data that a software driver takes, with its compiler: lavapipe needs 350 MiB.
+const DRIVER: u64 = 512 << 20;
+
+/// Pools of threads: ours, and that of the encoder of EXR.
+const POOLS: u64 = 2;
+
+/// What a user of a bake can do about refused threads.
+pub const FEWER: &str = "bake with --threads 1, or allow more of them (ulimit -u)";
+
+/// What a user of another command can.
+pub const ALLOW: &str = "allow more of them (ulimit -u)";
+
+/// Starts threads for work that takes so many bytes: as many as are asked for, or one for each core, but no more than limits of
+/// memory leave room for. An error where a thread is refused, with this cure, or where there is less memory than the work takes.
+pub fn start(bytes: u64, threads: Option<usize>, cure: &str) -> Result<()> {
     if let Some(threads) = threads.filter(|threads| !(1..=1024).contains(threads)) {
         return Err(Error::bad_input("threads", "1 to 1024", threads.to_string(), "give a number in that range"));
     }
+    let (need, limits) = (bytes + BASE, limits());
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let count = threads.unwrap_or_else(|| limits.iter().map(|limit| limit.threads(need)).fold(cores, usize::min));
+    limits.iter().try_for_each(|limit| limit.check(need, count))?;
     let builder = rayon::ThreadPoolBuilder::new();
-    let builder = match threads {
-        Some(1) => builder.num_threads(1).use_current_thread(),
-        Some(threads) => builder.num_threads(threads),
-        None => builder,
+    let builder = match count {
+        // A single thread is the one that runs already.
+        1 => builder.num_threads(1).use_current_thread(),
+        // Where nobody says how many, the library's own variable may.
+        _ if threads.is_none() && count == cores => builder,
+        _ => builder.num_threads(count),
     };
     builder.build_global().map_err(|error| {
-        let expected = threads.map_or("a thread for each core".into(), |threads| format!("{threads} threads"));
-        let cure = "bake with --threads 1, or allow more of them (ulimit -u)";
-        Error::Resources(Complaint::new("threads", expected, error.to_string(), cure))
+        Error::Resources(Complaint::new("threads", format!("{count} threads"), error.to_string(), cure))
     })
 }
 
-/// Refuses bakes, one after the other, that take more memory than there is.
-pub fn check_bakes(jobs: &[Job]) -> Result<()> {
-    check_memory(jobs.iter().map(|job| need(&job.requests)).max().unwrap_or(0))
+/// Opens a backend for work that takes so many bytes. A driver below a limit that is too small for it fails as it likes: it is
+/// refused where one is asked for, and left alone where there is a choice.
+pub fn open_backend(choice: BackendChoice, options: &GpuOptions, bytes: u64) -> Result<Backend> {
+    let fits =
+        || limits().iter().filter(|limit| limit.of_a_thread > 0).try_for_each(|limit| limit.check(bytes + DRIVER, 1));
+    let wanted = choice == BackendChoice::Vulkan || options.device.is_some();
+    match choice {
+        BackendChoice::Cpu => Backend::open(choice, options),
+        _ if wanted => fits().and_then(|()| Backend::open(choice, options)),
+        _ if fits().is_err() => Ok(Backend::cpu()),
+        _ => Backend::open(choice, options),
+    }
 }
 
-/// Refuses work that takes more memory than so many bytes and the program itself.
-pub fn check_memory(bytes: u64) -> Result<()> {
-    let need = bytes + BASE;
-    // Two pools: ours, and that of the encoder of EXR; none where there is one thread, which ran before.
-    let threads = match rayon::current_num_threads() as u64 {
-        1 => 0,
-        threads => 2 * threads,
-    };
-    for Limit { what, left, counts_addresses } in limits() {
-        let need = if counts_addresses { need + threads * ADDRESSES_OF_A_THREAD } else { need };
-        if need > left {
-            let cure = "give a smaller --size or fewer --threads, or free or allow more memory";
-            let (expected, got) = (need.div_ceil(1 << 20), left >> 20);
-            let got = format!("{got} MiB left of {what}");
-            return Err(Error::Resources(Complaint::new("memory", format!("{expected} MiB"), got, cure)));
-        }
-    }
-    Ok(())
+/// Bytes that bakes take, one after the other.
+pub fn of_bakes(jobs: &[Job]) -> u64 {
+    jobs.iter().map(|job| need(&job.requests)).max().unwrap_or(0)
 }
 
 /// Bytes that the layers of a file take while they are baked one after the other.
@@ -69,28 +84,51 @@ fn need(layers: &[Request]) -> u64 {
 struct Limit {
     what: &'static str,
     left: u64,
-    /// Whether addresses count that no memory stands behind.
-    counts_addresses: bool,
+    /// What a thread takes of it, in each pool.
+    of_a_thread: u64,
+}
+
+impl Limit {
+    /// How many threads there is room for beside so many bytes: one at the least, which takes nothing.
+    fn threads(&self, need: u64) -> usize {
+        let room = self.left.saturating_sub(need);
+        let threads = room.checked_div(POOLS * self.of_a_thread).unwrap_or(u64::MAX);
+        usize::try_from(threads).unwrap_or(usize::MAX).max(1)
+    }
+
+    /// Refuses work that takes so many bytes on so many threads.
+    fn check(&self, need: u64, threads: usize) -> Result<()> {
+        let need = if threads == 1 { need } else { need + POOLS * threads as u64 * self.of_a_thread };
+        if need <= self.left {
+            return Ok(());
+        }
+        let cure = match threads {
+            1 => "give a smaller --size, or free or allow more memory",
+            _ => "give a smaller --size or fewer --threads, or free or allow more memory",
+        };
+        let (expected, got) = (need.div_ceil(1 << 20), self.left >> 20);
+        let got = format!("{got} MiB left of {}", self.what);
+        Err(Error::Resources(Complaint::new("memory", format!("{expected} MiB"), got, cure)))
+    }
 }
 
 /// The limits that this system tells of.
 fn limits() -> Vec<Limit> {
     let read = |path: &str| fs::read_to_string(path).unwrap_or_default();
     let (limits, status, memory) = (read("/proc/self/limits"), read("/proc/self/status"), read("/proc/meminfo"));
-    let used = |name: &str| kib_in(&status, name).unwrap_or(0);
-    let of_process = |what, name: &str, used: u64| {
+    let of_process = |what, name: &str, used: &str, of_a_thread| {
         // "Max address space     2048000000           unlimited            bytes"
         let line = limits.lines().find(|line| line.starts_with(name))?;
         let soft: u64 = line[name.len()..].split_whitespace().next()?.parse().ok()?;
-        Some(Limit { what, left: soft.saturating_sub(used), counts_addresses: true })
+        Some(Limit { what, left: soft.saturating_sub(kib_in(&status, used).unwrap_or(0)), of_a_thread })
     };
-    let addresses = of_process("the address space (ulimit -v)", "Max address space", used("VmSize"));
-    let data = of_process("the data size (ulimit -d)", "Max data size", used("VmData"));
-    let group = group_left().map(|left| Limit { what: "the control group's memory", left, counts_addresses: false });
+    let addresses = of_process("the address space (ulimit -v)", "Max address space", "VmSize", ADDRESSES_OF_A_THREAD);
+    let data = of_process("the data size (ulimit -d)", "Max data size", "VmData", DATA_OF_A_THREAD);
+    let group = group_left().map(|left| Limit { what: "the control group's memory", left, of_a_thread: 0 });
     let free = kib_in(&memory, "MemAvailable").map(|free| Limit {
         what: "the memory and the swap space",
         left: free + kib_in(&memory, "SwapFree").unwrap_or(0),
-        counts_addresses: false,
+        of_a_thread: 0,
     });
     [addresses, data, group, free].into_iter().flatten().collect()
 }

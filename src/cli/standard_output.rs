@@ -7,7 +7,7 @@ use std::io;
 /// written to be lost opens it for writing.
 pub fn check() -> Result<()> {
     if is_closed() {
-        let closed = io::Error::new(io::ErrorKind::BrokenPipe, "it is closed");
+        let closed = io::Error::new(io::ErrorKind::BrokenPipe, "it is closed, or is /dev/null opened for reading too");
         return Err(super::output::failed("write to", "standard output", "redirect it to a file or a pipe")(closed));
     }
     Ok(())

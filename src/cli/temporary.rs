@@ -11,6 +11,9 @@ use tempfile::{NamedTempFile, TempPath};
 const PREFIX: &str = ".splitsum-";
 const SUFFIX: &str = ".tmp";
 
+/// Random letters between the two.
+const RANDOM: usize = 6;
+
 /// A file without a lock that is younger than this may be about to get one.
 const STALE: Duration = Duration::from_secs(60);
 
@@ -61,7 +64,7 @@ impl Temporary {
 
 fn builder() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(PREFIX).suffix(SUFFIX);
+    builder.prefix(PREFIX).rand_bytes(RANDOM).suffix(SUFFIX);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder
@@ -105,7 +108,9 @@ fn remove_stale(folder: &Path, ours: &File) {
     for entry in entries.flatten() {
         let name = entry.file_name();
         let name = name.to_string_lossy();
-        if name.starts_with(PREFIX) && name.ends_with(SUFFIX) && is_stale(&entry, &ours).unwrap_or(false) {
+        let length = PREFIX.len() + RANDOM + SUFFIX.len();
+        let ours_by_name = name.starts_with(PREFIX) && name.ends_with(SUFFIX) && name.len() == length;
+        if ours_by_name && is_stale(&entry, &ours).unwrap_or(false) {
             let _ = fs::remove_file(entry.path());
         }
     }

@@ -1,8 +1,8 @@
 //! `splitsum chart bounds`
 
-use super::{Devices, devices};
+use super::{Devices, STUDY_BYTES, devices};
 use crate::cli::progress::Progress;
-use crate::cli::{output, print, standard_output};
+use crate::cli::{output, print, resources, standard_output};
 use crate::error::{Error, Result};
 use crate::study::Machine;
 use crate::study::bounds::{Finding, Plan, Search, check, everything, search};
@@ -37,6 +37,7 @@ pub fn run(arguments: &BoundsArgs) -> Result<()> {
         return Err(Error::bad_input("seconds", "0 to 3e7", format!("{seconds:?}"), cure));
     }
     arguments.output.as_ref().map_or_else(standard_output::check, |file| output::check(file))?;
+    resources::start(STUDY_BYTES, None, resources::ALLOW)?;
     let devices = devices(arguments.device.as_deref(), arguments.cpu)?;
     let progress = Progress::of_work("searching", arguments.quiet);
     let found =

@@ -1,7 +1,7 @@
 //! `splitsum chart table`
 
+use crate::backend::BackendChoice;
 use crate::backend::vulkan::gpu::GpuOptions;
-use crate::backend::{Backend, BackendChoice};
 use crate::bake::working_bytes;
 use crate::cli::output;
 use crate::cli::resources;
@@ -23,8 +23,9 @@ pub fn run(table: &TableArgs) -> Result<()> {
         let texels = request.x.size * request.y.size;
         working_bytes(texels) + request.lut.channels().len() * texels * (3 * 8 + 3)
     };
-    resources::check_memory(job.requests.iter().map(bytes).max().unwrap_or(0) as u64)?;
-    let backend = Backend::open(BackendChoice::Auto, &GpuOptions::default())?;
+    let bytes = job.requests.iter().map(bytes).max().unwrap_or(0) as u64;
+    resources::start(bytes, None, resources::ALLOW)?;
+    let backend = resources::open_backend(BackendChoice::Auto, &GpuOptions::default(), bytes)?;
     for request in &job.requests {
         // As they are integrated: a storage may not hold what the picture's scale shows.
         let accuracy = match request.accuracy {
