@@ -8,7 +8,7 @@ mod program;
 use program::{ok, run, stderr};
 use splitsum::backend::Backend;
 use splitsum::integrate::rule::REFERENCE;
-use splitsum::lut::{Energy, EnergyChannels, Lut};
+use splitsum::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
 use splitsum::model::{Masking, Microfacet, Ndf};
 use splitsum::precision::Precision;
 use splitsum::quadrature::double_exponential::{DeNode, tanh_sinh};
@@ -123,8 +123,7 @@ fn charts_of_tables_show_what_no_unorm_holds() {
 
 /// One texel of the split at F0 = 0.04 and roughness 1/2.
 fn split(nov: &str, precision: Precision) -> Table {
-    let lobe = Microfacet { ndf: Ndf::Ggx, masking: Masking::HeightCorrelated };
-    let energy = Energy::new(lobe, F0::new(0.04).unwrap(), EnergyChannels::Split).unwrap();
+    let energy = Energy::new(ggx(), F0::new(0.04).unwrap(), EnergyChannels::Split).unwrap();
     bake(Lut::Energy(energy), nov, "roughness", precision)
 }
 
@@ -176,4 +175,30 @@ fn average(lobe: Microfacet, roughness: f64) -> f64 {
         tanh_sinh(72).iter().map(share).sum()
     };
     piece((0.0, middle)) + piece((middle, 1.0 - middle))
+}
+
+#[test]
+fn a_table_in_bands_has_the_values_of_its_rows() {
+    // 2.2 million texels are three bands; a row alone is one, and goes through other stages.
+    let lut = Lut::Dfg(Dfg { lobe: ggx(), channels: DfgChannels::Ab });
+    let axis = |words: &str, size| splitsum::axis::Axis::new(words.parse().unwrap(), size).unwrap();
+    let (nov, roughness) = (axis("nov", 2000), axis("roughness", 1100));
+    let bake = |x, y| {
+        let request = Request::new(lut, x, y, Accuracy::by_default(&lut, Precision::F16), Precision::F16).unwrap();
+        splitsum::bake(&request, &Backend::cpu(), &|_| ()).unwrap()
+    };
+    let (whole, transposed) = (bake(nov, roughness).table, bake(roughness, nov));
+    let certificate = transposed.report.certificate().unwrap();
+    assert_eq!(certificate.decided_before_reference + certificate.decided_by_reference, 2000 * 1100);
+    for row in [0, 1, 523, 524, 525, 1048, 1049, 1099] {
+        let alone = bake(nov, axis(&format!("roughness,edges,min={}", roughness.value(row)), 1)).table;
+        for column in 0..2000 {
+            assert_eq!(whole.texel(column, row), alone.texel(column, 0), "column {column} of row {row}");
+            assert_eq!(whole.texel(column, row), transposed.table.texel(row, column), "column {column} of row {row}");
+        }
+    }
+}
+
+fn ggx() -> Microfacet {
+    Microfacet { ndf: Ndf::Ggx, masking: Masking::HeightCorrelated }
 }

@@ -33,7 +33,8 @@ pub(super) struct Checked {
 }
 
 impl Integration<'_> {
-    /// What arithmetic adds to the rule's error: f32's on a device; the rules' bounds are rounded up by far more than f64 adds.
+    /// What arithmetic adds to the rule's error: f32's on a device; the rules' bounds are rounded up by far more than
+    /// f64 adds.
     fn arithmetic(&self) -> f64 {
         if self.gpu.is_some() { f32_arithmetic(self.integrand) } else { 0.0 }
     }

@@ -100,8 +100,8 @@ pub(super) fn sample(grid: &Grid) -> impl Iterator<Item = usize> {
     corners(grid).into_iter().chain(runs)
 }
 
-/// Measures a table by `rule` against the reference, at the corners and at others scattered over it, so many `texels` in
-/// all; an error beyond the `bound` fails.
+/// Measures a table by `rule` against the reference, at the corners and at others scattered over it, so many `texels`
+/// in all; an error beyond the `bound` fails.
 pub fn measure(
     integrand: impl Into<Integrand>,
     grid: &Grid,

@@ -71,8 +71,8 @@ pub fn resolve(path: &Path) -> PathBuf {
     path
 }
 
-/// The one spelling of a path. Folders that do not exist are taken as they are written: they are no links once they are made, so that
-/// `..` leads out of them again.
+/// The one spelling of a path. Folders that do not exist are taken as they are written: they are no links once they
+/// are made, so that `..` leads out of them again.
 fn canonical(path: &Path) -> PathBuf {
     if path.as_os_str().is_empty() {
         return canonical(Path::new("."));

@@ -1,4 +1,4 @@
-//! Memory and threads: what a bake takes is compared with what the system gives, before any work is done.
+//! Memory and threads: what work takes is compared with what the system gives, before any work is done.
 
 use super::table_args::Job;
 use crate::backend::vulkan::gpu::GpuOptions;
@@ -12,7 +12,8 @@ use std::path::Path;
 /// Bytes besides tables and bands: the program itself, fits and nodes, the lines that an encoder holds.
 const BASE: u64 = 32 << 20;
 
-/// Bytes of addresses that a thread takes: its stack, and what the C library sets aside for what it allocates (glibc's arenas).
+/// Bytes of addresses that a thread takes: its stack, and what the C library sets aside for what it allocates
+/// (glibc's arenas).
 const ADDRESSES_OF_A_THREAD: u64 = 66 << 20;
 
 /// Bytes of data that a thread takes: its stack, and what of its arena it uses.
@@ -30,8 +31,9 @@ pub const FEWER: &str = "bake with --threads 1, or allow more of them (ulimit -u
 /// What a user of another command can.
 pub const ALLOW: &str = "allow more of them (ulimit -u)";
 
-/// Starts threads for work that takes so many bytes: as many as are asked for, or one for each core, but no more than limits of
-/// memory leave room for. An error where a thread is refused, with this cure, or where there is less memory than the work takes.
+/// Starts threads for work that takes so many bytes: as many as are asked for, or one for each core, but no more than
+/// limits of memory leave room for. An error where a thread is refused, with this cure, or where there is less memory
+/// than the work takes.
 pub fn start(bytes: u64, threads: Option<usize>, cure: &str) -> Result<()> {
     if let Some(threads) = threads.filter(|threads| !(1..=1024).contains(threads)) {
         return Err(Error::bad_input("threads", "1 to 1024", threads.to_string(), "give a number in that range"));
@@ -53,8 +55,8 @@ pub fn start(bytes: u64, threads: Option<usize>, cure: &str) -> Result<()> {
     })
 }
 
-/// Opens a backend for work that takes so many bytes. A driver below a limit that is too small for it fails as it likes: it is
-/// refused where one is asked for, and left alone where there is a choice.
+/// Opens a backend for work that takes so many bytes. A driver below a limit that is too small for it fails as it
+/// likes: it is refused where one is asked for, and left alone where there is a choice.
 pub fn open_backend(choice: BackendChoice, options: &GpuOptions, bytes: u64) -> Result<Backend> {
     let fits =
         || limits().iter().filter(|limit| limit.of_a_thread > 0).try_for_each(|limit| limit.check(bytes + DRIVER, 1));

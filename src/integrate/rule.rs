@@ -120,7 +120,8 @@ impl Rule {
         RULES.iter().map(|rule| rule.bound(integrand)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The largest error of A and of B at an α, of albedos above 1 relative: [`Rule::bound`], but sharper or infinite for Charlie.
+    /// The largest error of A and of B at an α, of albedos above 1 relative: [`Rule::bound`], but sharper or infinite
+    /// for Charlie.
     pub fn bound_at(&self, integrand: impl Into<Integrand>, alpha: f64) -> f64 {
         self.errors_at(integrand, alpha, ScaleBias { a: 1.0, b: 0.0 }).a
     }
