@@ -143,6 +143,14 @@ impl Axis {
         if self.spec.flip { self.size as f64 - 1.0 - i } else { i }
     }
 
+    /// The texels on either side of a parameter, clamped at the ends, and the share of the second.
+    pub fn neighbours(&self, p: f64) -> (usize, usize, f64) {
+        let last = self.size - 1;
+        let texel = self.texel(p).clamp(0.0, last as f64);
+        let first = texel as usize;
+        (first, (first + 1).min(last), texel - first as f64)
+    }
+
     /// At how many texels the parameter was raised to the axis's min.
     pub fn clamped(&self) -> usize {
         let free = Axis { spec: AxisSpec { min: 0.0, ..self.spec }, size: self.size };

@@ -124,7 +124,7 @@ impl Job<'_> {
     fn certified(&self, tolerance: f64, sheet: &mut Sheet) -> Result<Outcome> {
         let Job { request, grid, progress, .. } = *self;
         let stages = Stages::of(&task(request, grid, tolerance));
-        let (mut seconds, mut device_seconds, mut tally) = (Seconds::default(), None, None::<Tally>);
+        let (mut seconds, mut device_seconds, mut tally) = (Seconds::default(), None, Tally::default());
         for (first, band) in self.bands() {
             let start = Instant::now();
             let device = match &self.device {
@@ -144,12 +144,8 @@ impl Job<'_> {
             sheet.put(first, &values);
             let took = if device.is_some() { &mut seconds.check } else { &mut seconds.integrate };
             *took += start.elapsed().as_secs_f64();
-            tally = Some(match tally {
-                Some(tally) => tally.with(found),
-                None => found,
-            });
+            tally = tally.with(found);
         }
-        let tally = tally.unwrap_or_default();
         let certificate = tally.certificate(&request.lut, request.precision, &stages)?;
         Ok(Outcome { worth: report::Worth::Certified { certificate, stages: tally.stages }, seconds, device_seconds })
     }
@@ -193,9 +189,7 @@ impl Job<'_> {
         };
         Ok(Outcome { worth: report::Worth::Uncertified { accuracy }, seconds, device_seconds })
     }
-}
 
-impl Job<'_> {
     /// The values of a band that is not certified, and the most that one of them may be off: of values above 1
     /// relative.
     fn channels(
@@ -216,7 +210,8 @@ impl Job<'_> {
             let channels = lut.values(mu, integral, averages[i / band.mus.len()]);
             for Ball { value, error } in channels.into_iter().take(count) {
                 worst = worst.max(error / value.abs().max(1.0));
-                values.push(precision.pulled_in(value, error, if at_most_one { error } else { 0.0 }));
+                let value = precision.pulled_in(value, error, if at_most_one { error } else { 0.0 });
+                values.push(precision.stored(value));
             }
         }
         (values, worst)

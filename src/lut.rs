@@ -188,7 +188,7 @@ impl Grid {
     /// them.
     pub fn stored(&self, lut: &Lut, precision: Precision, values: &[f64]) -> Result<Stored> {
         let mut sheet = Sheet::new(lut, self, precision)?;
-        sheet.put(0, values);
+        sheet.put(0, &values.iter().map(|&value| precision.stored(value)).collect::<Vec<_>>());
         sheet.finish()
     }
 }

@@ -56,11 +56,11 @@ impl Precision {
         }
     }
 
-    /// Whether it holds a value that [`Precision::nearest`] gives; it holds no NaN.
+    /// Whether it reaches as far as this value; it holds no NaN.
     #[inline]
-    pub fn holds(self, nearest: f64) -> bool {
+    pub fn holds(self, value: f64) -> bool {
         let (low, high) = self.range();
-        (low..=high).contains(&nearest)
+        (low..=high).contains(&value)
     }
 
     /// The value nearest to `value`, ties to even, of those that it would hold if its range had no end: beyond the
@@ -74,6 +74,14 @@ impl Precision {
             Precision::Unorm16 => steps(value, 65535.0) / 65535.0,
             Precision::Unorm8 => steps(value, 255.0) / 255.0,
         }
+    }
+
+    /// The value nearest to this one; this one itself where the storage does not reach so far.
+    #[inline]
+    pub fn stored(self, value: f64) -> f64 {
+        let nearest = self.nearest(value);
+        // The sum that rounds to a half loses the sign of what becomes 0.
+        if self.holds(nearest) { nearest.copysign(value) } else { value }
     }
 
     /// `value`, or the nearer end of the range where it lies no more than so much `below` or `above` it: for

@@ -116,12 +116,7 @@ impl Table {
 
     /// What a renderer reads at the parameters (`px`, `py`): bilinear between texels, clamped at the border.
     pub fn bilinear(&self, px: f64, py: f64) -> Vec<f64> {
-        let split = |axis: &Axis, p: f64| {
-            let t = axis.texel(p).clamp(0.0, axis.size as f64 - 1.0);
-            let i = t.floor() as usize;
-            (i, (i + 1).min(axis.size - 1), t - t.floor())
-        };
-        let ((i0, i1, u), (j0, j1, v)) = (split(&self.x, px), split(&self.y, py));
+        let ((i0, i1, u), (j0, j1, v)) = (self.x.neighbours(px), self.y.neighbours(py));
         (0..self.channels.len())
             .map(|c| {
                 let low = self.value(i0, j0, c) * (1.0 - u) + self.value(i1, j0, c) * u;

@@ -2,16 +2,16 @@
 //! independent method.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod common;
 #[path = "common/program.rs"]
 mod program;
 
+use common::average_in_two_pieces;
 use program::{ok, run, stderr};
 use splitsum::backend::Backend;
-use splitsum::integrate::rule::REFERENCE;
 use splitsum::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
 use splitsum::model::{Masking, Microfacet, Ndf};
 use splitsum::precision::Precision;
-use splitsum::quadrature::double_exponential::{DeNode, tanh_sinh};
 use splitsum::request::{Accuracy, Request};
 use splitsum::table::{Table, Worth};
 use splitsum::units::F0;
@@ -155,26 +155,14 @@ fn averages_of_a_term_that_jumps_promise_what_they_keep() {
     let Worth::Certificate(certificate) = &table.provenance.worth else { unreachable!() };
     assert!(certificate.bound >= 1e-6 && !certificate.promise.contains("e-7"), "{}", certificate.promise);
     for row in [700, 1050] {
-        let error = (table.value(0, row, 2) - average(walter, row as f64 / 1400.0)).abs();
+        // tests/energy.rs holds this average, in pieces that meet where the term jumps, against figures.
+        let alpha = (row as f64 / 1400.0).powi(2);
+        let average = average_in_two_pieces(walter, alpha, walter.break_at(alpha).unwrap());
+        let error = (table.value(0, row, 2) - average.e()).abs();
         assert!(error <= certificate.bound, "row {row}: {error:e}");
         // f32's half step is 3e-8: the values are off by more, and that is why more is promised.
         assert!(error > 1e-7, "row {row}: {error:e}");
     }
-}
-
-/// E_avg by double exponential quadrature in two pieces that meet where the term jumps; tests/energy.rs holds it
-/// against figures.
-fn average(lobe: Microfacet, roughness: f64) -> f64 {
-    let (integrator, alpha) = (REFERENCE.integrator(), roughness * roughness);
-    let middle = lobe.break_at(alpha).unwrap();
-    let piece = |(start, length): (f64, f64)| -> f64 {
-        let share = |node: &DeNode| {
-            let mu = start + length * node.from_start;
-            2.0 * length * node.weight * mu * integrator.integrate(lobe, mu, alpha).e()
-        };
-        tanh_sinh(72).iter().map(share).sum()
-    };
-    piece((0.0, middle)) + piece((middle, 1.0 - middle))
 }
 
 #[test]

@@ -63,12 +63,10 @@ impl<E: Fn(f64, ScaleBias) -> ScaleBias + Sync> Decider<'_, E> {
     ) -> Verdict {
         let (mu, alpha) = (self.task.grid.mus[column], self.task.grid.alphas[row]);
         let integral = self.integral(mu, alpha, value);
-        let decided = self.rounds_correctly && self.task.decide(mu, integral, self.averages[row], values);
+        let (same, error) = self.task.store(mu, integral, self.averages[row], values);
+        let decided = self.rounds_correctly && same;
         *open = !decided;
-        if decided {
-            return Verdict { decided: 1, error: 0.0 };
-        }
-        Verdict { decided: 0, error: self.task.store(mu, integral, self.averages[row], values) }
+        Verdict { decided: usize::from(decided), error: if decided { 0.0 } else { error } }
     }
 
     /// The same for the open texels of a row.

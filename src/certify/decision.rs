@@ -24,49 +24,28 @@ pub struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// The stored `values` of a texel at n·v = `mu`, from its integral and its row's average; and whether they are
-    /// beyond doubt: whether whatever the truth may be rounds to the same.
-    pub(super) fn decide(
-        &self,
-        mu: f64,
-        integral: ScaleBias<Ball>,
-        average: ScaleBias<Ball>,
-        values: &mut [f64],
-    ) -> bool {
-        let mut decided = true;
-        for (stored, channel) in values.iter_mut().zip(self.lut.values(mu, integral, average)) {
-            decided &= self.precision.nearest(channel.low()) == self.precision.nearest(channel.high());
-            *stored = self.stored(channel);
-        }
-        decided
-    }
-
-    /// The stored `values` of a texel, and the most that any of them may be off before it is rounded: of values above
-    /// 1 relative.
+    /// The stored `values` of a texel at n·v = `mu`, from its integral and its row's average; whether they are beyond
+    /// doubt: whether whatever the truth may be rounds to the same; and the most that any of them may be off before it
+    /// is rounded: of values above 1 relative.
+    #[inline]
     pub(super) fn store(
         &self,
         mu: f64,
         integral: ScaleBias<Ball>,
         average: ScaleBias<Ball>,
         values: &mut [f64],
-    ) -> f64 {
-        let mut worst = 0.0f64;
+    ) -> (bool, f64) {
+        let (mut decided, mut worst) = (true, 0.0f64);
         for (stored, channel) in values.iter_mut().zip(self.lut.values(mu, integral, average)) {
+            decided &= self.precision.nearest(channel.low()) == self.precision.nearest(channel.high());
             // A division is dear, and values above 1 are few.
             let size = channel.value.abs();
             worst = worst.max(if size > 1.0 { channel.error / size } else { channel.error });
-            *stored = self.stored(channel);
+            // No channel is negative, though an estimate of what is nearly 0 may be.
+            let value = if channel.value < 0.0 && channel.high() >= 0.0 { 0.0 } else { channel.value };
+            *stored = unsigned(self.precision.stored(value));
         }
-        worst
-    }
-
-    /// The value nearest to this one; this one itself where the storage does not reach so far.
-    #[inline]
-    fn stored(&self, channel: Ball) -> f64 {
-        // No channel is negative, though an estimate of what is nearly 0 may be.
-        let value = if channel.value < 0.0 && channel.high() >= 0.0 { 0.0 } else { channel.value };
-        let nearest = self.precision.nearest(value);
-        if self.precision.holds(nearest) { unsigned(nearest) } else { value }
+        (decided, worst)
     }
 
     /// How near the nearest of a texel's values is to a boundary of rounding.

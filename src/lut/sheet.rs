@@ -26,25 +26,26 @@ impl<'a> Sheet<'a> {
     }
 
     /// Takes the values of the α from row `first` of the grid on, in the order of the grid, each as the storage holds
-    /// it or, where it does not, as it is.
+    /// it or, where it does not, as it is ([`Precision::stored`]).
     pub fn put(&mut self, first: usize, values: &[f64]) {
         let (n, width, precision) = (self.lut.channels().len(), self.grid.mus.len(), self.values.precision());
         let (size, alphas) = (precision.bytes(), self.grid.alphas.len());
         let bytes = self.values.bytes_mut();
-        if self.grid.transposed {
+        let fits = if self.grid.transposed {
             // The α of the band are a part of each row of the table.
-            let place = |row: &mut [u8], mu: usize| {
-                let texels = row[first * n * size..].chunks_exact_mut(n * size);
-                texels.zip(values.chunks_exact(n).skip(mu).step_by(width)).for_each(|(bytes, values)| {
-                    pack(precision, values, bytes);
-                });
+            let column = |(mu, row): (usize, &mut [u8])| {
+                let texels = values.chunks_exact(n).skip(mu).step_by(width);
+                pack(precision, texels.flatten(), &mut row[first * n * size..])
             };
-            bytes.par_chunks_mut(alphas * n * size).enumerate().for_each(|(mu, row)| place(row, mu));
+            bytes.par_chunks_mut(alphas * n * size).enumerate().map(column).reduce(|| true, |a, b| a && b)
         } else {
             let rows = bytes[first * width * n * size..].par_chunks_mut(width * n * size);
-            rows.zip(values.par_chunks(width * n)).for_each(|(bytes, values)| pack(precision, values, bytes));
+            let rows = rows.zip(values.par_chunks(width * n));
+            rows.map(|(bytes, values)| pack(precision, values, bytes)).reduce(|| true, |a, b| a && b)
+        };
+        if !fits {
+            self.remember_excess(first * width * n, values);
         }
-        self.remember_excess(first * width * n, values);
     }
 
     /// The values, once all are there; an error where one of them cannot be held, which names the largest.
@@ -73,21 +74,20 @@ impl<'a> Sheet<'a> {
 
     fn remember_excess(&mut self, first: usize, values: &[f64]) {
         let precision = self.values.precision();
-        let fits = |value: &f64| precision.holds(precision.nearest(*value));
-        if values.par_iter().all(fits) {
-            return;
-        }
         let (low, high) = precision.range();
         let beyond = |value: f64| if value.is_nan() { f64::INFINITY } else { (value - high).max(low - value) };
-        let places = values.iter().copied().enumerate().filter(|(_, value)| !fits(value));
+        let places = values.iter().copied().enumerate().filter(|(_, value)| !precision.holds(*value));
         let farthest = places.map(|(i, value)| (value, first + i)).chain(self.excess);
         self.excess = farthest.max_by(|a, b| beyond(a.0).total_cmp(&beyond(b.0)));
     }
 }
 
-/// Writes values side by side.
-fn pack(precision: Precision, values: &[f64], bytes: &mut [u8]) {
-    for (&value, bytes) in values.iter().zip(bytes.chunks_exact_mut(precision.bytes())) {
+/// Writes values side by side; tells whether the storage holds all of them.
+fn pack<'a>(precision: Precision, values: impl IntoIterator<Item = &'a f64>, bytes: &mut [u8]) -> bool {
+    let mut fits = true;
+    for (&value, bytes) in values.into_iter().zip(bytes.chunks_exact_mut(precision.bytes())) {
+        fits &= precision.holds(value);
         precision.write(value, bytes);
     }
+    fits
 }

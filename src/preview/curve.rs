@@ -42,10 +42,8 @@ impl Curve {
 
     /// (A, B) at n·v = `mu`.
     pub fn at(&self, mu: f64) -> ScaleBias {
-        let last = self.values.len() - 1;
-        let texel = self.axis.texel(mu).clamp(0.0, last as f64);
-        let i = texel as usize;
-        let (low, high, share) = (self.values[i], self.values[(i + 1).min(last)], texel - i as f64);
+        let (i, next, share) = self.axis.neighbours(mu);
+        let (low, high) = (self.values[i], self.values[next]);
         ScaleBias { a: low.a + share * (high.a - low.a), b: low.b + share * (high.b - low.b) }
     }
 }

@@ -3,7 +3,10 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use libtest_mimic::Trial;
+use splitsum::integrate::ScaleBias;
+use splitsum::integrate::rule::REFERENCE;
 use splitsum::model::{Masking, Microfacet, Ndf};
+use splitsum::quadrature::double_exponential::tanh_sinh;
 
 pub fn ggx(masking: Masking) -> Microfacet {
     Microfacet { ndf: Ndf::Ggx, masking }
@@ -57,6 +60,19 @@ pub fn domain(count: usize) -> Vec<(f64, f64)> {
         }
     }
     points
+}
+
+/// A and B averaged over all directions, by the reference on double exponential nodes in two pieces that meet at `middle`.
+pub fn average_in_two_pieces(lobe: Microfacet, alpha: f64, middle: f64) -> ScaleBias {
+    let integrator = REFERENCE.integrator();
+    let mut sum = ScaleBias::zero();
+    for (start, length) in [(0.0, middle), (middle, 1.0 - middle)] {
+        for node in tanh_sinh(72) {
+            let mu = start + length * node.from_start;
+            sum.add(2.0 * length * node.weight * mu, integrator.integrate(lobe, mu, alpha));
+        }
+    }
+    sum
 }
 
 /// Whether a missing device, layer or tool is a failure.
