@@ -1,8 +1,8 @@
-// The entry point that bakes the numbers of a range of a grid's texels, one invocation each: see src/backend/vulkan/bake.rs.
+// The entry point that bakes the integrals of a range of a grid's texels, one invocation each: see
+// src/backend/vulkan/bake.rs. It needs store, which writes a texel's integrals.
 
 @group(0) @binding(1) var<storage, read> mus: array<f32>;
 @group(0) @binding(2) var<storage, read> alphas: array<f32>;
-@group(0) @binding(3) var<storage, read_write> integrals: array<vec2<f32>>;
 
 struct Job {
     // The texels from `first` up to, not including, `end`; n.v varies fastest.
@@ -20,5 +20,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let width = arrayLength(&mus);
-    integrals[id.x] = integrate(mus[texel % width], alphas[texel / width], job.rule);
+    store(id.x, integrate(mus[texel % width], alphas[texel / width], job.rule));
 }

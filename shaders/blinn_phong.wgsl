@@ -1,4 +1,4 @@
-// Blinn-Phong: the twin of src/model/blinn_phong.rs.
+// Blinn-Phong: the twin of src/brdf/ndf/blinn_phong.rs.
 
 // alpha^2 P22 at the squared scaled slope.
 fn blinn_phong_slope_density(y2: f32, alpha: f32) -> f32 {
@@ -6,7 +6,8 @@ fn blinn_phong_slope_density(y2: f32, alpha: f32) -> f32 {
     return 0.318309886 * exponential(-(y2 + t) * log1p_ratio(t));
 }
 
-// The y beyond which less than exp(-depth) of the lobe lies; (e^u - 1)/u by its series where u is small.
+// The y beyond which less than exp(-depth) of the lobe lies; (e^u - 1)/u by its series where u is
+// small.
 fn blinn_phong_end(alpha: f32, depth: f32) -> f32 {
     let a2 = alpha * alpha;
     let scale = depth * (1.0 + 3.0 * a2) / (1.0 + a2);

@@ -1,4 +1,4 @@
-// Charlie: the twin of src/model/charlie.rs.
+// Charlie: the twin of src/brdf/ndf/charlie.rs.
 
 // The unit of slopes.
 fn charlie_width(alpha: f32) -> f32 {
@@ -10,11 +10,13 @@ fn charlie_slope_density(y2: f32, alpha: f32) -> f32 {
     let y = max(y2, 1e-30);
     let a4 = 4.0 * alpha;
     let scale = a4 + y;
-    return 0.636619772 * (1.0 + 2.0 * alpha) * exponential(max(-2.0 / y * log1p_ratio(a4 / y), -100.0)) / scale / scale;
+    let power = exponential(max(-2.0 / y * log1p_ratio(a4 / y), -100.0));
+    return 0.636619772 * (1.0 + 2.0 * alpha) * power / scale / scale;
 }
 
-// e^L(x), L(x) = a/(1 + b x^p) + d x + e (Estevez and Kulla 2017), within 7e-7 of itself: L reaches 20, so that its parts are
-// kept in heads of 12 bits, whose products are exact, and in what is left of them.
+// e^L(x), L(x) = a/(1 + b x^p) + d x + e (Estevez and Kulla 2017), within 7e-7 of itself: L reaches
+// 20, so that its parts are kept in heads of 12 bits, whose products are exact, and in what is left
+// of them.
 fn charlie_lambda(x: f32, alpha: f32) -> f32 {
     let s = 1.0 - alpha;
     let s2 = s * s;
@@ -34,11 +36,12 @@ fn charlie_lambda(x: f32, alpha: f32) -> f32 {
     let a_rest = 0.0473 + 3.7772 * s2;
     let head = bitcast<f32>(bitcast<u32>((21.5 + a_rest) / sum) & 0xfffff000u);
     let rest = ((21.5 - head * sum_head) + (a_rest - head * sum_rest)) / sum;
-    return exponential(head - 4.0) * exponential(rest + (0.70367 * s2 - 1.97760) * x - (0.32054 + 0.53913 * s2));
+    let slope = (0.70367 * s2 - 1.97760) * x - (0.32054 + 0.53913 * s2);
+    return exponential(head - 4.0) * exponential(rest + slope);
 }
 
 // c (1 + 2 Lambda(c)).
-fn charlie_smith(c: f32, alpha: f32) -> f32 {
+fn charlie_projected_area(c: f32, alpha: f32) -> f32 {
     var lambda = charlie_lambda(min(c, 1.0 - c), alpha);
     if c >= 0.5 {
         let middle = charlie_lambda(0.5, alpha);

@@ -1,4 +1,4 @@
-// Fresnel reflectance: the twin of src/model/fresnel.rs.
+// Fresnel reflectance: the twin of src/brdf/fresnel.rs.
 
 // Schlick's weight (1 - v.h)^5 (Schlick 1994).
 fn schlick_weight(cosine: f32) -> f32 {

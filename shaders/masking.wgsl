@@ -1,13 +1,13 @@
-// Masking and shadowing as n.l V = G / (4 n.v): the twin of src/model/masking.rs.
+// Masking and shadowing as n.l V = G / (4 n.v): the twin of src/brdf/masking.rs.
 
 // Height-correlated Smith (Heitz 2014, equation 99).
-fn height_correlated(x: f32, mu: f32, sx: f32, smu: f32) -> f32 {
-    return 0.5 / smu * (x / (x + mu / smu * sx));
+fn height_correlated(x: f32, mu: f32, area_l: f32, area_v: f32) -> f32 {
+    return 0.5 / area_v * (x / (x + mu / area_v * area_l));
 }
 
 // Separable Smith (Heitz 2014, equation 98).
-fn separable(x: f32, mu: f32, sx: f32, smu: f32) -> f32 {
-    return 1.0 / (mu + smu) * (x / (x + sx));
+fn separable(x: f32, mu: f32, area_l: f32, area_v: f32) -> f32 {
+    return 1.0 / (mu + area_v) * (x / (x + area_l));
 }
 
 // Schlick-Smith with k = alpha/2 (Karis 2013).
@@ -18,7 +18,7 @@ fn schlick_smith(x: f32, mu: f32, alpha: f32) -> f32 {
 }
 
 // The joint approximation's c (1 + 2 Lambda(c)) (Hammon 2017; Vis_SmithJointApprox).
-fn joint_smith(c: f32, alpha: f32) -> f32 {
+fn approx_projected_area(c: f32, alpha: f32) -> f32 {
     return c * (1.0 - alpha) + alpha;
 }
 

@@ -1,4 +1,6 @@
-// Spheres under a punctual light, in a white furnace and under a sky: the twin of src/preview.rs, which explains it.
+// Spheres under a punctual light, in a white furnace and under a sky: the twin of src/preview.rs,
+// which explains it. It needs table_u and table_v, the texture coordinates of the table
+// (src/table/axis.rs).
 
 struct Job {
     // Pixels along the edge of a sphere's cell, and spheres in a row.
@@ -7,8 +9,6 @@ struct Job {
     scene: u32,
     // Texels along the edge of the table.
     table: u32,
-    // The texel at which n.v is mu: x mu + y; at which roughness is r: z r + w. From src/axis.rs.
-    texels: vec4<f32>,
     rule: Rule,
 }
 
@@ -25,7 +25,8 @@ const GOLD = vec3<f32>(1.0, 0.78, 0.34);
 const DIELECTRIC = 0.04;
 const LIGHT = vec3<f32>(0.48, 0.6, 0.64);
 const LIGHT_COLOUR = 1.6;
-// The sky as a polynomial of the height y of a direction: zeroth, first and second Legendre coefficient.
+// The sky as a polynomial of the height y of a direction: zeroth, first and second Legendre
+// coefficient.
 const SKY0 = vec3<f32>(0.55, 0.6, 0.7);
 const SKY1 = vec3<f32>(0.3, 0.42, 0.6);
 const SKY2 = vec3<f32>(-0.22, -0.12, 0.0);
@@ -35,14 +36,15 @@ fn pi_d_v(x: f32, mu: f32, nh: f32, alpha: f32) -> f32 {
     let c2 = nh * nh;
     let width = slope_width(alpha);
     let y2 = (1.0 - nh) * (1.0 + nh) / (c2 * width * width);
-    return 3.14159265 * slope_density(y2, alpha) / (width * width * c2 * c2) * cosine_visibility(x, mu, alpha) / x;
+    let d = slope_density(y2, alpha) / (width * width * c2 * c2);
+    return 3.14159265 * d * cosine_visibility(x, mu, alpha) / x;
 }
 
 // The table as a renderer reads it: bilinear between texels, clamped at the border.
 fn lookup(mu: f32, roughness: f32) -> vec2<f32> {
     let last = f32(job.table) - 1.0;
-    let u = clamp(job.texels.x * mu + job.texels.y, 0.0, last);
-    let v = clamp(job.texels.z * roughness + job.texels.w, 0.0, last);
+    let u = clamp(f32(job.table) * table_u(mu) - 0.5, 0.0, last);
+    let v = clamp(f32(job.table) * table_v(roughness) - 0.5, 0.0, last);
     let i = u32(u);
     let j = u32(v);
     let i1 = min(i + 1u, job.table - 1u);
@@ -52,7 +54,8 @@ fn lookup(mu: f32, roughness: f32) -> vec2<f32> {
     return mix(low, high, v - f32(j));
 }
 
-// The sky in the direction of height y, its first and second coefficients scaled by a kernel's means.
+// The sky in the direction of height y, its first and second coefficients scaled by a kernel's
+// means.
 fn sky(y: f32, p1: f32, p2: f32) -> vec3<f32> {
     return SKY0 + SKY1 * (p1 * y) + SKY2 * (p2 * (1.5 * y * y - 0.5));
 }
@@ -71,7 +74,7 @@ fn punctual(n: vec3<f32>, column: vec4<f32>) -> vec3<f32> {
 fn furnace(n: vec3<f32>, column: vec4<f32>, part: u32) -> vec3<f32> {
     let mu = max(n.z, 0.0);
     let looked_up = lookup(mu, column.y);
-    let integral = h_space(mu, column.x, job.rule);
+    let integral = half_vectors(mu, column.x, job.rule);
     let a = GOLD * looked_up.x + looked_up.y;
     let b = GOLD * integral.x + integral.y;
     if part == 0u {

@@ -1,7 +1,9 @@
-// Estimators over points of the unit square: the twin of src/sampling.rs and of the files below it.
-// It needs slope_width, slope_density, cosine_visibility and h_space's Sum; half vectors by their distribution are GGX's.
+// Estimators over points of the unit square: the twin of src/compare/sampling.rs and its files.
+// It needs slope_width, slope_density, cosine_visibility and half_vectors's Sum; half vectors by
+// their distribution are GGX's.
 
-// A point: (cos 2 pi u, sin^2 2 pi u) and (v, 1 - v). Three of the nodes, the third holding its weight.
+// A point: (cos 2 pi u, sin^2 2 pi u) and (v, 1 - v). Three of the nodes, the third holding its
+// weight.
 struct Point {
     cosine: f32,
     sine2: f32,
@@ -28,18 +30,20 @@ struct Sample {
 // The view at n.v = mu.
 fn seen_from(mu: f32, alpha: f32) -> View {
     let sv = sqrt((1.0 - mu) * (1.0 + mu));
-    let visible = ggx_smith(mu, alpha);
+    let visible = ggx_projected_area(mu, alpha);
     return View(mu, sv, alpha, visible, vec2<f32>(alpha * sv / visible, mu / visible));
 }
 
-// The direction that the half vector (x in the plane, z along the normal) reflects; its weight is n.l V yet.
+// The direction that the half vector (x in the plane, z along the normal) reflects; its weight is
+// n.l V yet.
 fn reflected(view: View, x: f32, z: f32) -> Sample {
     let vh = view.sv * x + view.mu * z;
     let nl = 2.0 * vh * z - view.mu;
     return Sample(nl, vh, cosine_visibility(max(nl, 0.0), view.mu, view.alpha));
 }
 
-// The same where the half vector is given in the space in which the microsurface is a hemisphere, in whatever length.
+// The same where the half vector is given in the space in which the microsurface is a hemisphere,
+// in whatever length.
 fn reflect_stretched(view: View, x: f32, y2: f32, z: f32, factor: f32) -> Sample {
     let shrink = 1.0 / sqrt(view.alpha * view.alpha * (x * x + y2) + z * z);
     let sample = reflected(view, view.alpha * x * shrink, z * shrink);
@@ -61,22 +65,22 @@ fn visible_factor(view: View) -> f32 {
 
 // By what v sees (Heitz 2018).
 fn visible_sample(view: View, point: Point) -> Sample {
-    let across2 = point.v * point.sine2;
+    let t1_squared = point.v * point.sine2;
     let s = 0.5 * (1.0 + view.stretched.y);
-    let along = (1.0 - s) * sqrt(1.0 - across2) + s * (sqrt(point.v) * point.cosine);
-    let towards = sqrt(max(1.0 - across2 - along * along, 0.0));
-    let x = view.stretched.x * towards - view.stretched.y * along;
-    let z = max(view.stretched.x * along + view.stretched.y * towards, 0.0);
-    return reflect_stretched(view, x, across2, z, visible_factor(view));
+    let t2 = (1.0 - s) * sqrt(1.0 - t1_squared) + s * (sqrt(point.v) * point.cosine);
+    let t3 = sqrt(max(1.0 - t1_squared - t2 * t2, 0.0));
+    let x = view.stretched.x * t3 - view.stretched.y * t2;
+    let z = max(view.stretched.x * t2 + view.stretched.y * t3, 0.0);
+    return reflect_stretched(view, x, t1_squared, z, visible_factor(view));
 }
 
 // A sample from the cap of heights above -bound.
 fn cap_sample(view: View, point: Point, bound: f32, factor: f32) -> Sample {
     let below = (1.0 + bound) * point.v;
     let sine2 = below * ((1.0 + bound) * point.rest + (1.0 - bound));
-    let across2 = sine2 * point.sine2;
+    let y2 = sine2 * point.sine2;
     let x = sqrt(sine2) * point.cosine + view.stretched.x;
-    return reflect_stretched(view, x, across2, max(1.0 - below + view.stretched.y, 0.0), factor);
+    return reflect_stretched(view, x, y2, max(1.0 - below + view.stretched.y, 0.0), factor);
 }
 
 // By spherical caps (Dupuy and Benyoub 2023).
@@ -99,17 +103,19 @@ fn bounded_visible_sample(view: View, point: Point) -> Sample {
 // D at the squared slope t.
 fn distribution(t: f32, alpha: f32) -> f32 {
     let width = slope_width(alpha);
-    let narrow = 1.0 / (width * width);
-    return slope_density(t * narrow, alpha) * narrow * ((1.0 + t) * (1.0 + t));
+    let inverse_width2 = 1.0 / (width * width);
+    return slope_density(t * inverse_width2, alpha) * inverse_width2 * ((1.0 + t) * (1.0 + t));
 }
 
 // The sample at n.l = z, sin(theta_l) = sine.
 fn direct(view: View, point: Point, z: f32, sine: f32, inverse_pdf: f32) -> Sample {
     let x = view.sv + sine * point.cosine;
-    let level2 = x * x + sine * sine * point.sine2;
-    let up = view.mu + z;
-    let weight = distribution(level2 / up / up, view.alpha) * cosine_visibility(z, view.mu, view.alpha) * inverse_pdf;
-    return Sample(z, 0.5 * sqrt(level2 + up * up), weight);
+    let horizontal2 = x * x + sine * sine * point.sine2;
+    let vertical = view.mu + z;
+    let t = horizontal2 / vertical / vertical;
+    let visible = cosine_visibility(z, view.mu, view.alpha);
+    let vh = 0.5 * sqrt(horizontal2 + vertical * vertical);
+    return Sample(z, vh, distribution(t, view.alpha) * visible * inverse_pdf);
 }
 
 // pdf = 1/(2 pi).
@@ -124,16 +130,15 @@ fn cosine_sample(view: View, point: Point) -> Sample {
 }
 
 // (A, B) as the mean over as many points as the rule counts.
-fn estimate(mu: f32, alpha: f32, rule: Rule) -> vec2<f32> {
+fn estimate(mu: f32, alpha: f32, rule: Rule) -> Weights {
     let view = seen_from(mu, alpha);
-    var sum = Sum(vec2<f32>(0.0), vec2<f32>(0.0));
+    var sum = Sum(Weights(0.0), Weights(0.0));
     for (var i = 0u; i < rule.radial; i++) {
         let turn = nodes[3u * i];
         let height = nodes[3u * i + 1u];
         let sample = draw(view, Point(turn.x, turn.y, height.x, height.y));
-        let f = schlick_weight(sample.vh);
         let value = select(0.0, sample.weight * nodes[3u * i + 2u].x, sample.nl > 0.0);
-        add(&sum, i, value * vec2<f32>(1.0 - f, f));
+        add(&sum, i, value * fresnel_weights(sample.vh));
     }
     return sum.total + sum.block;
 }

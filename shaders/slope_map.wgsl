@@ -1,4 +1,4 @@
-// The slope map: the twin of src/quadrature/slope_map.rs. POWER is 2 or 4.
+// The slope map: the twin of src/numeric/quadrature/slope_map.rs. POWER is 2 or 4.
 
 struct SlopeInterval {
     w0: f32,

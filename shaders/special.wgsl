@@ -1,4 +1,4 @@
-// Special functions: the twin of src/special.rs. Correct to a few ulps with + - * / alone.
+// Special functions: the twin of src/numeric/special.rs. Correct to a few ulps with + - * / alone.
 
 // e^r - 1 for |r| <= ln(2)/2: the Taylor series to r^7 (the next term is 5e-9).
 fn expm1_reduced(r: f32) -> f32 {
@@ -51,21 +51,22 @@ fn log1p_ratio(u: f32) -> f32 {
     return 2.0 / (2.0 + u) * atanh_ratio(s * s);
 }
 
-// i1erfc(a) = exp(-a^2)/sqrt(pi) - a erfc(a) for a >= 0: exp(-a^2) times a Chebyshev fit in (a - 2.5)/(a + 2.5),
-// within 1e-8 on [0, 6.5]; beyond, the value is below 1e-20.
+// i1erfc(a) = exp(-a^2)/sqrt(pi) - a erfc(a) for a >= 0: exp(-a^2) times a Chebyshev fit in (a -
+// 2.5)/(a + 2.5), within 1e-8 on [0, 6.5]; beyond, the value is below 1e-20.
 fn ierfc(a: f32) -> f32 {
     if a > 6.5 {
         return 0.0;
     }
     let t = (a - 2.5) / (a + 2.5);
-    let fit = 0.0371736772 + t * (-0.124690063 + t * (0.175368384 + t * (-0.141328856 + t * (0.0714551881
+    let fit = 0.0371736772 + t * (-0.124690063 + t * (0.175368384 + t * (-0.141328856
+        + t * (0.0714551881
         + t * (-0.0183963254 + t * (-0.00186886371 + t * (0.00263420981 + t * (8.36901236e-5
         + t * -0.000196480847))))))));
     return exponential(-a * a) * fit;
 }
 
-// x^(head + rest) for normal x > 0 as 2^k and e^r - 1: nearly twice the digits of one number. `head` has few enough bits that
-// its products with the exponents of x are exact.
+// x^(head + rest) for normal x > 0 as 2^k and e^r - 1: nearly twice the digits of one number.
+// `head` has few enough bits that its products with the exponents of x are exact.
 fn power_parts(x: f32, head: f32, rest: f32) -> vec2<f32> {
     let parts = logarithm_parts(x);
     let high = head * parts.x;

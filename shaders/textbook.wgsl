@@ -1,4 +1,5 @@
-// Formulas as textbooks have them, for the study of what drivers make of them: the twin of src/study/textbook.rs. No bake uses them.
+// Formulas as textbooks have them, for the study of what drivers make of them: the twin of
+// src/compare/textbook.rs. No bake uses them.
 
 // D/D(0) of GGX.
 fn textbook_ggx(nh: f32, alpha: f32) -> f32 {

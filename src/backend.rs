@@ -1,16 +1,26 @@
-//! Who computes: the CPU in f64, or a Vulkan device in f32. Backends see parameters and give numbers; they know no files.
+//! The backends: the CPU in f64, or a Vulkan device in f32. They see parameters and give numbers;
+//! they know no files.
 
+#[cfg(not(feature = "vulkan"))]
+mod absent;
 pub mod cpu;
-pub mod rows;
-pub mod shader;
+pub mod device;
+#[cfg(feature = "vulkan")]
 pub mod vulkan;
+#[cfg(feature = "vulkan")]
+pub mod wgsl;
 
+#[cfg(not(feature = "vulkan"))]
+pub use absent::{Gpu, bake, list_devices};
+#[cfg(feature = "vulkan")]
+pub use vulkan::{bake::bake, devices::list_devices, gpu::Gpu};
+
+use crate::choice::choice;
 use crate::error::{Complaint, Error, Result};
+use device::GpuOptions;
 use std::cell::OnceCell;
-use std::str::FromStr;
-use vulkan::gpu::{Gpu, GpuOptions};
 
-/// Which backend is asked for.
+/// The backend that is asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BackendChoice {
     /// Vulkan where a device can do the work and the work pays for starting it, else the CPU.
@@ -22,6 +32,12 @@ pub enum BackendChoice {
     Cpu,
 }
 
+choice!(BackendChoice, "backend", {
+    Auto = "auto", "Vulkan where a device can do the work and it pays, else the CPU";
+    Vulkan = "vulkan", "Vulkan or an error";
+    Cpu = "cpu", "the CPU";
+});
+
 /// Seconds that it takes to start Vulkan: loader, driver, device and the compilation of a kernel.
 pub const VULKAN_START: f64 = 0.03;
 
@@ -30,16 +46,16 @@ pub const VULKAN_START: f64 = 0.03;
 pub struct Backend {
     choice: BackendChoice,
     options: GpuOptions,
-    /// Or why there is none.
+    /// The device, or the reason why there is none.
     gpu: OnceCell<std::result::Result<Gpu, String>>,
 }
 
-/// Who does a job, and why, where there was a choice.
-#[derive(Debug)]
+/// The backend of a job, and the reason where there was a choice.
+#[derive(Clone, Debug)]
 pub struct Chosen<'a> {
-    /// The device; `None` computes on the CPU.
+    /// The device; none for the CPU.
     pub gpu: Option<&'a Gpu>,
-    /// Why.
+    /// The reason.
     pub reason: Option<String>,
 }
 
@@ -49,7 +65,8 @@ impl Backend {
         Backend { choice: BackendChoice::Cpu, options: GpuOptions::default(), gpu: OnceCell::new() }
     }
 
-    /// What is asked for; [`BackendChoice::Vulkan`] fails for want of a device, and so does a device that is named.
+    /// The backend that is asked for. An error where there is no device and
+    /// [`BackendChoice::Vulkan`] or a device by name is asked for.
     pub fn open(choice: BackendChoice, options: &GpuOptions) -> Result<Self> {
         let backend = Backend { choice, options: options.clone(), gpu: OnceCell::new() };
         if choice == BackendChoice::Vulkan || options.device.is_some() {
@@ -58,8 +75,9 @@ impl Backend {
         Ok(backend)
     }
 
-    /// Who does a job that a device may be unable to do, `obstacle` saying why, and in which it saves the CPU so many seconds. An
-    /// error if the CPU is ruled out.
+    /// Chooses the backend of a job. `obstacle`: why a device cannot do it, if it cannot; `saved`:
+    /// CPU seconds that a device would save. An error if the job needs the CPU and
+    /// [`BackendChoice::Vulkan`] is asked for.
     pub fn choose(&self, obstacle: Option<Complaint>, saved: f64) -> Result<Chosen<'_>> {
         let on_cpu = |reason| Ok(Chosen { gpu: None, reason });
         let (saved_ms, start_ms) = (1e3 * saved, 1e3 * VULKAN_START);
@@ -67,17 +85,24 @@ impl Backend {
             (BackendChoice::Cpu, _) => on_cpu(None),
             (BackendChoice::Vulkan, Some(complaint)) => Err(Error::BadInput(complaint)),
             (BackendChoice::Auto, Some(complaint)) => on_cpu(Some(complaint.to_string())),
-            // Whoever asks for a device, or how it is to work, wants one.
-            (BackendChoice::Auto, None) if self.options == GpuOptions::default() && saved <= VULKAN_START => {
+            // Who asks for a device, or says how it is to work, wants one.
+            (BackendChoice::Auto, None)
+                if self.options == GpuOptions::default() && saved <= VULKAN_START =>
+            {
                 on_cpu(Some(format!(
-                    "a device would save {saved_ms:.1} ms of the CPU's work, and starting one takes {start_ms:.0} ms"
+                    "a device would save {saved_ms:.1} ms of the CPU's work, and starting one \
+                     takes {start_ms:.0} ms"
                 )))
             }
             (choice, None) => match self.open_device() {
-                Ok(gpu) if choice == BackendChoice::Vulkan => Ok(Chosen { gpu: Some(gpu), reason: None }),
+                Ok(gpu) if choice == BackendChoice::Vulkan => {
+                    Ok(Chosen { gpu: Some(gpu), reason: None })
+                }
                 Ok(gpu) => {
-                    let reason =
-                        format!("it saves {saved_ms:.0} ms of the CPU's work, and starting it takes {start_ms:.0} ms");
+                    let reason = format!(
+                        "it saves {saved_ms:.0} ms of the CPU's work, and starting it takes \
+                         {start_ms:.0} ms"
+                    );
                     Ok(Chosen { gpu: Some(gpu), reason: Some(reason) })
                 }
                 Err(reason) => on_cpu(Some(reason.clone())),
@@ -85,7 +110,7 @@ impl Backend {
         }
     }
 
-    /// The device, if there is to be one.
+    /// The device, unless the CPU is asked for or there is none.
     pub fn device(&self) -> Option<&Gpu> {
         if self.choice == BackendChoice::Cpu { None } else { self.open_device().as_ref().ok() }
     }
@@ -95,18 +120,5 @@ impl Backend {
     }
 }
 
-impl FromStr for BackendChoice {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self> {
-        match text {
-            "auto" => Ok(BackendChoice::Auto),
-            "vulkan" => Ok(BackendChoice::Vulkan),
-            "cpu" => Ok(BackendChoice::Cpu),
-            _ => Err(Error::bad_input("backend", "auto, vulkan or cpu", format!("'{text}'"), "name one of these")),
-        }
-    }
-}
-
-/// Told how many texels more are done, from any thread.
+/// Told the number of texels that are newly done, from any thread.
 pub type Progress<'a> = &'a (dyn Fn(usize) + Sync);

@@ -1,10 +1,14 @@
-//! The command line: flags and configurations become requests; files are read and written, and people are talked to,
-//! here and nowhere else.
+//! The command line: flags and configurations become requests; files are read and written, and
+//! people are talked to, here and nowhere else.
 
 mod bake;
+#[cfg(feature = "compare")]
 mod chart;
+mod choices;
+mod completions;
 mod config;
 mod depfile;
+mod device_args;
 mod devices;
 mod furnace;
 mod message;
@@ -19,15 +23,13 @@ mod temporary;
 mod watched;
 
 use crate::error::{Complaint, Error, ExitCode, Result};
-use crate::model::{Diffuse, Ndf};
-use crate::units::word;
 use clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
 use std::io::Write;
 
-/// Bakes preintegrated BRDF lookup tables on Vulkan compute or the CPU, checks them, and says how far each is from
-/// the truth.
+/// Bakes preintegrated BRDF lookup tables on Vulkan compute or the CPU, checks them, and states how
+/// far each is from the truth.
 #[derive(Parser)]
 #[command(name = "splitsum", version, arg_required_else_help = true)]
 struct Cli {
@@ -39,7 +41,8 @@ struct Cli {
 enum Command {
     /// Bake a table, or all tables of a configuration
     Bake(Box<bake::BakeArgs>),
-    /// Draw a table, or measure methods and draw what they are worth
+    /// Draw a table, or measure methods and draw their speed and accuracy
+    #[cfg(feature = "compare")]
     #[command(subcommand)]
     Chart(Box<chart::ChartArgs>),
     /// Report how much energy a material gives back in a white furnace
@@ -48,52 +51,59 @@ enum Command {
     Preview(preview::PreviewArgs),
     /// List the Vulkan devices, the preferred one first
     Devices(devices::DevicesArgs),
+    /// Print completions for a shell
+    Completions(completions::CompletionArgs),
+    /// Print the manual page, or that of a command
+    Man(completions::ManArgs),
 }
 
-/// Runs the program with these arguments, the first being its name; what comes back is its exit code.
+/// The command line's grammar, with the exit codes in its help.
+fn command() -> clap::Command {
+    let codes =
+        ExitCode::MEANINGS.map(|(code, meaning)| format!("  {}  {meaning}", code as u8)).join("\n");
+    let codes = format!("Exit codes:\n{codes}");
+    let with_codes = |command: clap::Command| command.after_help(&codes);
+    with_codes(Cli::command())
+        .mut_subcommands(|command| with_codes(command).mut_subcommands(with_codes))
+}
+
+/// Runs the program with these arguments, the first being its name, and returns its exit code.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let arguments = arguments.into_iter().map(depfile::long_flag);
-    let codes = ExitCode::MEANINGS.map(|(code, meaning)| format!("  {}  {meaning}", code as u8)).join("\n");
-    let codes = format!("Exit codes:\n{codes}");
-    let specular = Ndf::ALL.map(|ndf| format!("  {:<16} {}\n", word(ndf), ndf.summary())).concat();
-    let diffuse = Diffuse::ALL.map(|diffuse| format!("  {:<16} {}\n", word(diffuse), diffuse.summary())).concat();
-    let models = format!("Models of dfg, sheen and energy:\n{specular}\nModels of diffuse:\n{diffuse}\n{codes}");
-    let command = Cli::command().after_help(&codes).mut_subcommands(|command| {
-        let takes_models = ["bake", "chart", "furnace"].contains(&command.get_name());
-        let command = command.mut_subcommands(|command| {
-            let names_no_model = ["stability", "bounds"].contains(&command.get_name());
-            command.after_help(if names_no_model { &codes } else { &models })
-        });
-        command.after_help(if takes_models { &models } else { &codes })
-    });
-    let cli = match command.try_get_matches_from(arguments).and_then(|matches| Cli::from_arg_matches(&matches)) {
+    let matches = command().try_get_matches_from(arguments);
+    let cli = match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => return refuse(&error),
     };
     let outcome = match cli.command {
         Command::Bake(arguments) => bake::run(*arguments),
+        #[cfg(feature = "compare")]
         Command::Chart(arguments) => chart::run(&arguments),
         Command::Furnace(arguments) => furnace::run(&arguments),
         Command::Preview(arguments) => preview::run(&arguments),
         Command::Devices(arguments) => devices::run(&arguments),
+        Command::Completions(arguments) => completions::print_completions(&arguments),
+        Command::Man(arguments) => completions::print_manual(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::Success as u8,
         Err(error) => {
-            let _ = writeln!(std::io::stderr(), "splitsum: {}", message::shorten(&error.to_string()));
+            let _ =
+                writeln!(std::io::stderr(), "splitsum: {}", message::shorten(&error.to_string()));
             error.exit_code() as u8
         }
     }
 }
 
-/// Prints what the parser has to say: the help that was asked for, or why it cannot go on.
+/// Prints the parser's message: the help that was asked for, or an error.
 fn refuse(error: &clap::Error) -> u8 {
     if !error.use_stderr() {
         let _ = error.print();
         return ExitCode::Success as u8;
     }
     // The help that stands for a missing command is long, and meant to be.
-    let (text, quoting) = (error.to_string(), error.kind() != DisplayHelpOnMissingArgumentOrSubcommand);
+    let (text, quoting) =
+        (error.to_string(), error.kind() != DisplayHelpOnMissingArgumentOrSubcommand);
     let short = message::shorten(&text);
     let _ = if quoting && short.len() < text.trim_end().len() {
         writeln!(std::io::stderr(), "{short}")
@@ -105,7 +115,7 @@ fn refuse(error: &clap::Error) -> u8 {
 
 /// Prints to standard output; a closed pipe is an error like any other.
 fn print(text: &str) -> Result<()> {
-    let failed = output::failed("write to", "standard output", "check what reads it");
+    let failed = Error::io("write to", "standard output", "check what reads it");
     let mut out = std::io::stdout().lock();
     writeln!(out, "{text}").and_then(|()| out.flush()).map_err(failed)
 }

@@ -1,110 +1,105 @@
-//! How a definition becomes a number: E(F0) = F0 A + B by quadrature, by three formulas.
+//! From a lobe to numbers: the integrals of the weights of its Fresnel model over all directions of
+//! light, I_k = ∫ f/F w_k n·l dω, by quadrature in three forms or by interpolation between such
+//! integrals.
 //!
-//! With n·v = μ, n·l = x and Schlick's F: E = ∫ f n·l dω = F0 A + B, A = ∫ f/F (1-w) n·l dω, B = ∫ f/F w n·l dω,
-//! w = (1 - v·h)^5. The limits on the edges: α = 0 is a mirror, whatever n·v.
+//! With Schlick's weights (1 - w, w) they are A and B of the split sum, E(F0) = F0 A + B (Karis
+//! 2013). On the edge α = 0 they are those of a mirror, whatever n·v.
 
 pub mod average;
 pub mod bounds;
-pub mod h_space;
-pub mod l_space;
-pub mod reference;
+pub mod costs;
+pub mod double_exponential;
+pub mod errors;
+pub mod field;
+pub mod half_vectors;
+pub mod interpolant;
+pub mod light_directions;
+pub mod pick;
 pub mod rule;
 pub mod rules;
-pub mod surrogate;
 
-use crate::ball::Ball;
-use crate::lanes::{Number, Real};
-use crate::model::fresnel::{schlick_complement, schlick_weight};
-use crate::model::{Diffuse, Microfacet};
+pub use field::{Field, ScaleBias};
 
-/// What is integrated.
+use crate::brdf::{Diffuse, Fresnel, Microfacet};
+use crate::numeric::lanes::Real;
+
+/// A lobe to be integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Integrand {
-    /// A specular lobe, to (A, B).
-    Specular(Microfacet),
-    /// A white diffuse lobe, to (E, 0); the grid's α is the square of its roughness.
+    /// A specular lobe, to the integrals of its Fresnel model's weights.
+    Specular(Microfacet, Fresnel),
+    /// A white diffuse lobe, to its albedo; the grid's α is the square of its roughness.
     Diffuse(Diffuse),
 }
 
 impl From<Microfacet> for Integrand {
     fn from(lobe: Microfacet) -> Self {
-        Integrand::Specular(lobe)
+        Integrand::Specular(lobe, Fresnel::Schlick)
     }
 }
 
 impl Integrand {
+    /// The number of integrals at a point.
+    pub fn count(self) -> usize {
+        match self {
+            Integrand::Specular(_, fresnel) => fresnel.count(),
+            Integrand::Diffuse(_) => 1,
+        }
+    }
+
+    /// The names of the integrals.
+    pub fn names(self) -> Vec<&'static str> {
+        match self {
+            Integrand::Specular(_, fresnel) => {
+                fresnel.definition().integrals.iter().map(|integral| integral.name).collect()
+            }
+            Integrand::Diffuse(_) => vec!["E"],
+        }
+    }
+
     /// Whether an albedo can exceed 1.
     pub fn may_exceed_one(self) -> bool {
         match self {
-            Integrand::Specular(lobe) => lobe.may_exceed_one(),
+            Integrand::Specular(lobe, _) => lobe.may_exceed_one(),
             Integrand::Diffuse(_) => true,
         }
     }
 }
 
-/// The two numbers of the split sum: E(F0) = F0 · `a` + `b` (Karis 2013).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ScaleBias<R = f64> {
-    /// A, the scale of F0.
-    pub a: R,
-    /// B, the bias.
-    pub b: R,
+/// The scale of errors at a point: the albedo there if it exceeds 1, else 1.
+#[inline]
+pub fn scale(integrals: &[f64]) -> f64 {
+    // The first two weights add up to F = 1: see Basis.
+    integrals.iter().take(2).sum::<f64>().max(1.0)
 }
 
-impl<R: Real> ScaleBias<R> {
-    /// Nothing.
+/// The integrals of the weights at one point, or at as many as R has lanes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Integrals<const N: usize, R = f64>(pub [R; N]);
+
+impl<const N: usize, R: Real> Integrals<N, R> {
+    /// Zeros.
     #[inline(always)]
     pub fn zero() -> Self {
-        ScaleBias { a: R::from(0.0), b: R::from(0.0) }
+        Integrals([R::from(0.0); N])
     }
 
-    /// Adds `weight` times `part`.
+    /// Adds `factor` times `part`.
     #[inline(always)]
-    pub fn add(&mut self, weight: R, part: ScaleBias<R>) {
-        self.a = self.a + weight * part.a;
-        self.b = self.b + weight * part.b;
+    pub fn add(&mut self, factor: R, part: [R; N]) {
+        #[allow(
+            clippy::needless_range_loop,
+            reason = "zip keeps the sums in memory, not registers"
+        )]
+        for k in 0..N {
+            self.0[k] = self.0[k] + factor * part[k];
+        }
     }
 
-    /// The same in the lanes where `value` is above 0, nothing in the others.
+    /// The same in the lanes where `value` is above 0, and 0 in the others.
     #[inline(always)]
     pub fn where_positive(self, value: R) -> Self {
         let zero = R::from(0.0);
-        ScaleBias { a: zero.select_below(value, self.a, zero), b: zero.select_below(value, self.b, zero) }
-    }
-}
-
-impl<R: Number> ScaleBias<R> {
-    /// The limit α → 0 at fixed n·v: a perfect mirror, times `limit` ([`crate::model::Microfacet::smooth_limit`]).
-    pub fn mirror(mu: R, limit: R) -> Self {
-        ScaleBias { a: limit * schlick_complement(mu), b: limit * schlick_weight(mu) }
-    }
-}
-
-impl ScaleBias {
-    /// The directional albedo at F = 1: E = A + B.
-    pub fn e(self) -> f64 {
-        self.a + self.b
-    }
-
-    /// E(F0) = F0 A + B.
-    pub fn at_f0(self, f0: f64) -> f64 {
-        f0 * self.a + self.b
-    }
-
-    /// Each number at most so far from the truth.
-    pub fn within(self, errors: ScaleBias) -> ScaleBias<Ball> {
-        ScaleBias { a: Ball { value: self.a, error: errors.a }, b: Ball { value: self.b, error: errors.b } }
-    }
-}
-
-impl ScaleBias<Ball> {
-    /// The directional albedo at F = 1: E = A + B.
-    pub fn e(self) -> Ball {
-        self.a + self.b
-    }
-
-    /// E(F0) = F0 A + B.
-    pub fn at_f0(self, f0: f64) -> Ball {
-        Ball::exact(f0) * self.a + self.b
+        Integrals(self.0.map(|integral| zero.select_below(value, integral, zero)))
     }
 }

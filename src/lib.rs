@@ -1,85 +1,112 @@
-//! splitsum bakes preintegrated BRDF tables, on Vulkan compute or on the CPU, and says how far each is from the truth.
+//! splitsum bakes preintegrated BRDF lookup tables, on Vulkan compute or on the CPU, and states how
+//! far each is from the truth.
+//!
+//! ```
+//! use splitsum::{Backend, Dfg, DfgChannels, Fresnel, Lut, Microfacet, Ndf, Precision, Request};
+//!
+//! let lobe = Microfacet::new(Ndf::Ggx, None)?;
+//! let lut = Lut::Dfg(Dfg::new(lobe, Fresnel::Schlick, DfgChannels::All)?);
+//! let request = Request::with_default_axes(lut, (16, 16), Precision::F16)?;
+//! let table = splitsum::bake(&request, &Backend::cpu())?.table;
+//! assert_eq!(table.claim(0).certificate().map(|certificate| certificate.undecided), Some(0));
+//! # Ok::<(), splitsum::Error>(())
+//! ```
+//!
+//! [`encode`] makes a file of a table. A [`Plan`] tells beforehand which rules and which device a
+//! bake takes, and takes a progress callback.
+//!
+//! The names above are the library; the modules below are its inside, open to its own tests and
+//! program. Data flows one way:
 //!
 //! ```text
-//!   Request ──► Lut + Rule over a Grid ──► backend ──► certify ──► Table ──► encode ──► bytes
-//!   (request)   (lut, integrate, model)   (cpu, vulkan)                      (exr, png)    │
-//!                                                          report ◄────────────────────────┘
+//!   Request ──► Plan ──► backend ──► certify ──► Table ──► format ──► bytes
+//!                        (cpu, vulkan)             │
+//!                                                  └─────► Report
 //! ```
 //!
 //! A module uses only modules that stand above it in this list:
 //!
-//! - [`error`]: every failure, with what was expected, what was got and the cure; the exit codes
-//! - [`units`]: perceptual roughness, α, cosines, index of refraction, F0; each conversion once
-//! - [`ball`]: a number with a bound of its error, carried through arithmetic
-//! - [`lanes`]: eight numbers side by side, for the CPU's vector registers
-//! - [`axis`]: texel ↔ parameter, the only half-texel arithmetic
-//! - [`half`]: correctly rounded binary16
-//! - [`precision`]: how a value is stored
-//! - [`stored`]: numbers in the bytes of a file
-//! - [`certificate`]: what is certified of a table
-//! - [`table`]: values over two axes, bilinear lookup, differences
-//! - [`special`]: the special functions of the models
-//! - [`quadrature`]: Gauss-Legendre, the slope map, double exponential; point sets
-//! - [`model`]: distributions of normals, masking, Fresnel, with their citations
-//! - [`integrate`]: how a lobe becomes (A, B): over half vectors, over light directions, by the reference; the rules
-//! - [`sampling`]: the field's estimators of the same integrals, for comparison
-//! - [`lut`]: what is baked, over which grid, into which channels
-//! - [`request`]: a checked job, which prints itself as the command that repeats it
-//! - [`backend`]: the CPU, the shaders, the Vulkan host
-//! - [`certify`]: every value rounded correctly; a device's table against the CPU, any table against the reference
-//! - [`furnace`]: what a material gives back in a white furnace
-//! - [`report`]: what is said of a bake; pictures
-//! - [`mod@bake`]: from a request to a table
-//! - [`preview`]: spheres lit with tables and with integrals
-//! - [`encode`]: a table as the bytes of a file
-//! - [`study`]: what methods are worth: errors beside times, and where formulas fail
-//! - [`draw`]: shapes as SVG and as pixels, the axes of charts
-//! - [`chart`]: charts of a study
+//! - `error`: failures, with expectation, finding and cure; the exit codes
+//! - `choice`: choices that have a word each
+//! - `units`: roughness, α, cosines, index of refraction, F0, and their conversions
+//! - `image`: pictures of numbers
+//! - `numeric`: vector registers, error bounds, halves, special functions, quadrature
+//! - `table`: axes, storage, claims, slices
+//! - `brdf`: distributions of normals, masking, Fresnel, diffuse lobes, with their citations
+//! - `integrate`: from a lobe to its integrals; the rules, their bounds and costs
+//! - `lut`: the families of tables and their channels
+//! - `request`: a checked job, which prints itself as the command that repeats it
+//! - `backend`: the CPU, the shaders, the Vulkan host
+//! - `certify`: every value rounded correctly; a device's table checked by the CPU, any table by
+//!   the reference
+//! - `report`: the report of a bake
+//! - `bake`: the plan of a bake and its execution
+//! - `format`: a table as the bytes of a file
+//! - `furnace`: the energy that a material gives back in a white furnace
+//! - `preview`: spheres lit with tables and with integrals
+//! - `compare`: methods compared: estimators, fits, textbook formulas; studies and charts
 //! - `cli`: flags and configurations to requests; files and terminals
 //!
-//! What is absent, and kept absent by `tests/tidy.rs`: models know no tables; backends know no files; encoders know
-//! only tables; nothing but `cli` touches the disk or prints; `unsafe` stands in `backend/vulkan` alone; every WGSL
-//! function has a Rust twin of the same name.
-//!
-//! ```
-//! use splitsum::{backend::Backend, lut::{Dfg, DfgChannels, Lut}, model::{Masking, Microfacet, Ndf}};
-//! use splitsum::{precision::Precision, request::Request};
-//!
-//! let lobe = Microfacet { ndf: Ndf::Ggx, masking: Masking::HeightCorrelated };
-//! let lut = Lut::Dfg(Dfg { lobe, channels: DfgChannels::Ab });
-//! let request = Request::with_default_axes(lut, (16, 16), Precision::F16)?;
-//! let baked = splitsum::bake(&request, &Backend::cpu(), &|_| ())?;
-//! assert_eq!(baked.report.certificate().map(|certificate| certificate.undecided), Some(0));
-//! # Ok::<(), splitsum::error::Error>(())
-//! ```
+//! `tests/tidy.rs` keeps this order, and what is absent: models know no tables; backends know no
+//! files; encoders know only tables; nothing but `cli` touches the disk or prints; `unsafe` stands
+//! in `backend/vulkan` alone; every WGSL function has a Rust twin of the same name.
 
+#[doc(hidden)]
 pub mod error;
+#[doc(hidden)]
+pub mod choice;
+#[doc(hidden)]
 pub mod units;
-pub mod ball;
-pub mod lanes;
-pub mod axis;
-pub mod half;
-pub mod precision;
-pub mod stored;
-pub mod certificate;
+#[doc(hidden)]
+pub mod image;
+#[doc(hidden)]
+pub mod numeric;
+#[doc(hidden)]
 pub mod table;
-pub mod special;
-pub mod quadrature;
-pub mod model;
+#[doc(hidden)]
+pub mod brdf;
+#[doc(hidden)]
 pub mod integrate;
-pub mod sampling;
+#[doc(hidden)]
 pub mod lut;
+#[doc(hidden)]
 pub mod request;
+#[doc(hidden)]
 pub mod backend;
+#[doc(hidden)]
 pub mod certify;
-pub mod furnace;
+#[doc(hidden)]
 pub mod report;
+#[doc(hidden)]
 pub mod bake;
+#[doc(hidden)]
+pub mod format;
+#[doc(hidden)]
+#[cfg(feature = "cli")]
+pub mod furnace;
+#[doc(hidden)]
+#[cfg(feature = "cli")]
 pub mod preview;
-pub mod encode;
-pub mod study;
-pub mod draw;
-pub mod chart;
+#[doc(hidden)]
+#[cfg(feature = "compare")]
+pub mod compare;
+#[doc(hidden)]
+#[cfg(feature = "cli")]
 pub mod cli;
 
-pub use bake::{Baked, bake};
+pub use backend::device::{DeviceInfo, GpuOptions};
+pub use backend::{Backend, BackendChoice};
+pub use bake::{Baked, Plan, bake};
+pub use brdf::{Diffuse, Fresnel, Masking, Microfacet, Ndf};
+pub use choice::Choice;
+pub use error::{Error, ExitCode, Result};
+pub use format::{FORMATS, Format, encode};
+pub use lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
+pub use report::Report;
+pub use request::{Accuracy, Request};
+pub use table::axis::{Axis, AxisSpec, Mapping, Nodes, Parameter};
+pub use table::claim::{Certificate, Claim};
+pub use table::precision::Precision;
+pub use table::slices::Slices;
+pub use table::{Channel, Table};
+pub use units::F0;

@@ -1,44 +1,42 @@
-//! Spheres that show what tables and lobes look like: a row for each lobe, a column for each roughness.
+//! Spheres that show what tables and lobes look like: a row for each lobe, a column for each
+//! roughness.
 //!
-//! *Punctual.* A light without extent, and the rendering equation of games: L = (c_diff + π D V F) ⊗ c_light (n·l),
-//! where c_light
-//! is the radiance that a white Lambertian surface facing the light sends out. That is the convention which makes the
-//! π go: L = f E with irradiance E = π c_light n·l, so that c_diff/π and D V F are both times π. With Blinn-Phong's D
+//! *Punctual.* A light without extent, and the rendering equation of games:
+//! L = (c_diff + π D V F) ⊗ c_light (n·l), where c_light is the radiance that a white Lambertian
+//! surface facing the light sends out. That is the convention which makes the π go: L = f E with
+//! irradiance E = π c_light n·l, so that c_diff/π and D V F are both times π. With Blinn-Phong's D
 //! and V = 1/4, π D V F is (n+2)/8 (n·h)^n F (Hoffman 2013).
 //!
-//! *Furnace.* Light from everywhere: a gold sphere by the split sum with a baked table, by the integral itself, and
-//! their
-//! difference times 100.
+//! *Furnace.* Light from everywhere: a gold sphere by the split sum with a baked table, by the
+//! integral itself, and their difference times 100.
 //!
-//! *Sky.* L(y) = s0 + s1 P1(y) + s2 P2(y) of the height y of a direction. Prefiltering it by a kernel around a
-//! direction scales
-//! s1 and s2 by the kernel's means of P1 and P2 (Funk and Hecke), so that both factors of the split sum are exact.
+//! *Sky.* L(y) = s0 + s1 P1(y) + s2 P2(y) of the height y of a direction. Prefiltering it by a
+//! kernel around a direction scales s1 and s2 by the kernel's means of P1 and P2 (Funk and Hecke),
+//! so that both factors of the split sum are exact.
 
 pub mod curve;
+#[cfg(feature = "vulkan")]
+mod on_device;
 mod shade;
 
-use crate::axis::Axis;
-use crate::backend::shader::preview_kernel;
-use crate::backend::vulkan::render::{RowData, render_row};
 use crate::backend::{Backend, Progress, cpu};
-use crate::error::{Error, Result};
-use crate::integrate::h_space::HSpaceRule;
-use crate::integrate::rule::{Method, REFERENCE, Rule};
+use crate::brdf::{Microfacet, Ndf};
+use crate::error::Result;
+use crate::image::Picture;
+use crate::integrate::rule::Rule;
 use crate::integrate::rules::H288;
-use crate::lut::{Dfg, DfgChannels, Lut};
-use crate::model::{Microfacet, Ndf};
-use crate::precision::Precision;
-use crate::quadrature::gauss_legendre::gauss_legendre;
-use crate::report::map::Picture;
-use crate::request::Request;
-use crate::table::Table;
+use crate::integrate::rules::REFERENCE;
+use crate::numeric::quadrature::gauss_legendre::gauss_legendre;
+use crate::table::axis::{Axis, AxisSpec, Parameter};
+use crate::table::grid::Grid;
+use crate::table::precision::Precision;
 use crate::units::{Alpha, PerceptualRoughness};
-use curve::Curve;
+use curve::{Curve, Samples};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use shade::{Sphere, shade};
 
-/// What lights the spheres. The numbers are those of the shader.
+/// Light on the spheres. The numbers are those of the shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scene {
     /// One punctual light.
@@ -53,18 +51,31 @@ pub enum Scene {
     Sky = 4,
 }
 
+impl Scene {
+    /// The scene in words.
+    pub fn about(self) -> &'static str {
+        match self {
+            Scene::Punctual => "in one light",
+            Scene::FurnaceTable => "in a furnace by the table",
+            Scene::FurnaceIntegral => "by the integral",
+            Scene::FurnaceDifference => "their difference times 100",
+            Scene::Sky => "under a sky",
+        }
+    }
+}
+
 /// A row of spheres.
 #[derive(Clone, Debug)]
 pub struct Row {
     /// The lobe.
     pub lobe: Microfacet,
-    /// What lights it.
+    /// Its light.
     pub scene: Scene,
     columns: Vec<Column>,
-    table: Table,
+    table: Samples,
 }
 
-/// A sphere's roughness and what follows from it.
+/// A sphere's roughness, and the prefiltering that follows from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Column {
     alpha: f64,
@@ -79,58 +90,44 @@ pub const ROUGHNESSES: [f64; 6] = [0.15, 0.3, 0.45, 0.6, 0.8, 1.0];
 /// Texels along the edge of the rows' tables.
 const TABLE: usize = 64;
 
-/// The rule of the furnace's integral: what it leaves is a hundredth of what the table's texels do.
+/// The rule of the furnace's integral, a hundred times as accurate as the lookup in the table.
 pub const RULE: Rule = H288;
 
 impl Row {
     /// The row, its table baked.
     pub fn new(lobe: Microfacet, scene: Scene) -> Result<Self> {
-        let lut = Lut::Dfg(Dfg { lobe, channels: DfgChannels::Ab });
-        let request = Request::with_default_axes(lut, (TABLE, TABLE), Precision::F32)?;
-        let grid = request.grid()?;
-        let rule = Rule::for_cpu(lobe, Precision::F16.default_tolerance(), grid.len()).unwrap_or(REFERENCE);
-        let values: Vec<f64> = cpu::bake(lobe, &grid, &rule, &|_| ()).iter().flat_map(|v| [v.a, v.b]).collect();
-        let values = grid.stored(&lut, Precision::F64, &values)?;
-        let channels = lut.channels().to_vec();
-        let table = Table { x: request.x, y: request.y, channels, values, provenance: lut.provenance() };
+        let axis = |parameter| Axis::new(AxisSpec::of(parameter), TABLE);
+        let (x, y) = (axis(Parameter::Nov)?, axis(Parameter::Roughness)?);
+        let grid = Grid::new(&x, &y)?;
+        let rule = Rule::for_cpu(lobe, Precision::F16.default_tolerance(), grid.len())
+            .unwrap_or(REFERENCE);
+        let table = Samples { x, y, values: cpu::bake(lobe, &grid, &rule, &|_| ()).scale_bias() };
         let column = |&r: &f64| PerceptualRoughness::new(r).map(|r| Column::new(lobe.ndf, r));
-        Ok(Row { lobe, scene, columns: ROUGHNESSES.iter().map(column).collect::<Result<_>>()?, table })
+        Ok(Row {
+            lobe,
+            scene,
+            columns: ROUGHNESSES.iter().map(column).collect::<Result<_>>()?,
+            table,
+        })
     }
 
-    /// What the shader needs of it.
-    fn data(&self, cell: usize) -> RowData {
-        let column = |c: &Column| [c.alpha, c.roughness, c.means.0, c.means.1].map(|value| value as f32);
-        let (x, y) = (&self.table.x, &self.table.y);
-        let texel = |index: usize| {
-            let texel = self.table.texel(index % x.size, index / x.size);
-            [texel[0] as f32, texel[1] as f32]
-        };
-        let ([x_scale, x_offset], [y_scale, y_offset]) = (texel_line(x), texel_line(y));
-        RowData {
-            columns: self.columns.iter().map(column).collect(),
-            table: (0..x.size * y.size).map(texel).collect(),
-            texels: [x_scale, x_offset, y_scale, y_offset].map(|value| value as f32),
-            cell,
-            scene: self.scene as u32,
-        }
-    }
-
-    /// Its spheres, with all that is read of them.
+    /// Its spheres, ready for the CPU.
     fn spheres(&self) -> Result<Vec<Sphere>> {
         let integrates = matches!(self.scene, Scene::FurnaceIntegral | Scene::FurnaceDifference);
         let sphere = |&column: &Column| -> Result<Sphere> {
             let table = Curve::of_table(&self.table, column.roughness);
-            let integral = integrates.then(|| Curve::of_integral(self.lobe, column.alpha, &RULE)).transpose()?;
-            Ok(Sphere { lobe: self.lobe, column, integral: integral.unwrap_or_else(|| table.clone()), table })
+            let integral = integrates
+                .then(|| Curve::of_integral(self.lobe, column.alpha, &RULE))
+                .transpose()?;
+            Ok(Sphere {
+                lobe: self.lobe,
+                column,
+                integral: integral.unwrap_or_else(|| table.clone()),
+                table,
+            })
         };
         self.columns.iter().map(sphere).collect()
     }
-}
-
-/// The scale and the offset of a linear axis: texel = scale · parameter + offset.
-fn texel_line(axis: &Axis) -> [f64; 2] {
-    let offset = axis.texel(0.0);
-    [axis.texel(1.0) - offset, offset]
 }
 
 impl Column {
@@ -151,20 +148,13 @@ impl Column {
     }
 }
 
-/// The rows below each other, `cell` pixels for each sphere, by whoever `backend` is; `progress` is told of pixels.
+/// The rows below each other, `cell` pixels for each sphere, on a backend; `progress` is told of
+/// pixels.
 pub fn render(rows: &[Row], cell: usize, backend: &Backend, progress: Progress) -> Result<Picture> {
     let width = cell * ROUGHNESSES.len();
     let mut picture = Picture::new(width, cell * rows.len(), [0; 3]);
     for (index, row) in rows.iter().enumerate() {
-        let pixels = match backend.device() {
-            Some(gpu) => {
-                let rule = device_rule()?;
-                let pixels = render_row(gpu, &preview_kernel(row.lobe, rule.power)?, &row.data(cell), &rule)?;
-                progress(pixels.len());
-                pixels
-            }
-            None => render_row_on_cpu(row, cell, progress)?,
-        };
+        let pixels = render_row(row, cell, backend, progress)?;
         for (i, colour) in pixels.into_iter().enumerate() {
             picture.set(i % width, index * cell + i / width, colour.map(srgb));
         }
@@ -172,12 +162,28 @@ pub fn render(rows: &[Row], cell: usize, backend: &Backend, progress: Progress) 
     Ok(picture)
 }
 
-/// The nodes of [`RULE`], which a device integrates by.
-fn device_rule() -> Result<HSpaceRule> {
-    match RULE.method {
-        Method::HSpace(rule) => Ok(rule),
-        _ => Err(Error::Internal(format!("{} is no rule over half vectors", RULE.name))),
+/// The pixels of a row in linear R, G, B.
+#[cfg(feature = "vulkan")]
+fn render_row(
+    row: &Row,
+    cell: usize,
+    backend: &Backend,
+    progress: Progress,
+) -> Result<Vec<[f64; 3]>> {
+    match backend.device() {
+        Some(gpu) => {
+            let pixels = on_device::render_row_on_device(gpu, row, cell)?;
+            progress(pixels.len());
+            Ok(pixels)
+        }
+        None => render_row_on_cpu(row, cell, progress),
     }
+}
+
+/// The pixels of a row in linear R, G, B.
+#[cfg(not(feature = "vulkan"))]
+fn render_row(row: &Row, cell: usize, _: &Backend, progress: Progress) -> Result<Vec<[f64; 3]>> {
+    render_row_on_cpu(row, cell, progress)
 }
 
 /// The same row as the shader's, in f64.
@@ -185,7 +191,8 @@ fn render_row_on_cpu(row: &Row, cell: usize, progress: Progress) -> Result<Vec<[
     let spheres = row.spheres()?;
     let width = cell * spheres.len();
     let line = |j: usize| {
-        let pixels: Vec<_> = (0..width).map(|i| pixel(row.scene, &spheres[i / cell], (i % cell, j), cell)).collect();
+        let pixels: Vec<_> =
+            (0..width).map(|i| pixel(row.scene, &spheres[i / cell], (i % cell, j), cell)).collect();
         progress(width);
         pixels
     };

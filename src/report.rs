@@ -1,16 +1,14 @@
-//! What is said of a bake: for people a few lines, for programs JSON; and pictures of numbers.
+//! The report of a bake: a few lines for people, JSON for programs.
 
-pub mod map;
-
-use crate::backend::vulkan::devices::DeviceInfo;
-use crate::certificate::{Certificate, Stage};
+use crate::backend::device::DeviceInfo;
 use crate::certify::deviation::Deviation;
-use serde::Serialize;
+use crate::table::claim::{Claim, Stage};
 use std::fmt;
 
-/// Who computed a table.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
+/// The backend that computed a table.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "kebab-case"))]
 pub enum Computed {
     /// The CPU, in f64.
     Cpu {
@@ -28,44 +26,25 @@ pub enum Computed {
     },
 }
 
-/// What the numbers of a table that is not certified are worth.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Accuracy {
-    /// The rule that integrated.
-    pub rule: &'static str,
+/// The checks of a table that is not certified.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Checks {
     /// Evaluations of the integrand for a texel, on the average.
     pub evaluations: f64,
-    /// The largest error of a value before it is stored, by the rule, the arithmetic, averages and the channel's
-    /// formula; of values above 1 relative.
-    pub bound: f64,
-    /// How far a device was from the CPU, by the same rule in f64.
+    /// The largest differences between a device and the CPU by the same rule in f64.
     pub cross_check: Option<Deviation>,
-    /// The largest error found against the double-exponential reference.
+    /// The largest errors found against the double-exponential reference.
     pub measured: Deviation,
+    /// The names of the integrals.
+    pub integrals: Vec<&'static str>,
     /// The largest error that storing a value in [0, 1] adds.
     pub rounding: f64,
 }
 
-/// What the numbers of a table are worth.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum Worth {
-    /// They are certified one by one.
-    Certified {
-        /// What the file says too.
-        certificate: Certificate,
-        /// How it was come by.
-        stages: Vec<Stage>,
-    },
-    /// They are not.
-    Uncertified {
-        /// What is known instead.
-        accuracy: Accuracy,
-    },
-}
-
 /// Seconds of wall time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Seconds {
     /// Integrating: on a device with compilation and transfer, on the CPU with certification.
     pub integrate: f64,
@@ -73,69 +52,85 @@ pub struct Seconds {
     pub check: f64,
 }
 
-/// What is said of a bake.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// The report of a slice.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Report {
-    /// The command that repeats it.
+    /// The command that repeats the bake of the whole table.
     pub command: String,
+    /// The slice, as in `F0 = 0.04`; none of a table over two axes.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub slice: Option<String>,
     /// Columns and rows.
     pub size: [usize; 2],
     /// Columns and rows that hold the value at their axis's min instead of their own.
     pub clamped: [usize; 2],
-    /// Who computed it.
+    /// The backend.
     pub computed: Computed,
-    /// What its numbers are worth.
-    #[serde(flatten)]
-    pub worth: Worth,
-    /// How long it took.
+    /// The claim, as the file states it too.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub claim: Claim,
+    /// The stages of a certification, one after the other.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    pub stages: Vec<Stage>,
+    /// The checks of a table that is not certified.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub checks: Option<Checks>,
+    /// The time that it took.
     pub seconds: Seconds,
-}
-
-impl Report {
-    /// The certificate, if there is one.
-    pub fn certificate(&self) -> Option<&Certificate> {
-        match &self.worth {
-            Worth::Certified { certificate, .. } => Some(certificate),
-            Worth::Uncertified { .. } => None,
-        }
-    }
 }
 
 impl fmt::Display for Computed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Computed::Cpu { .. } => f.write_str("CPU, f64"),
-            Computed::Vulkan { device, .. } => write!(f, "Vulkan, f32: {} ({})", device.name, device.driver),
+            Computed::Vulkan { device, .. } => {
+                write!(f, "Vulkan, f32: {} ({})", device.name, device.driver)
+            }
         }
     }
 }
 
-impl fmt::Display for Worth {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Worth::Certified { certificate, stages } => {
+impl Report {
+    /// The claim and its grounds in lines.
+    fn write_claim(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.claim {
+            Claim::Certificate(certificate) => {
                 writeln!(f, "certified {}", certificate.promise)?;
-                for Stage { by, error_of_a, texels, decided, .. } in stages {
-                    let share = decided.map_or(String::new(), |decided| format!("{decided} of "));
-                    writeln!(f, "          {share}{texels} texels by {by}, within {error_of_a:.1e}")?;
+                for Stage { by, error, texels, decided, .. } in &self.stages {
+                    let decided = decided.map_or(String::new(), |decided| format!("{decided} of "));
+                    writeln!(f, "          {decided}{texels} texels by {by}, within {error:.1e}")?;
                 }
                 if let Some(distance) = certificate.smallest_distance {
-                    writeln!(f, "          the nearest is {distance:.1e} from a boundary of rounding")?;
+                    writeln!(
+                        f,
+                        "          the nearest is {distance:.1e} from a boundary of rounding"
+                    )?;
                 }
-                write!(f, "blake3    {}", certificate.blake3)
+                writeln!(f, "blake3    {}", certificate.blake3)
             }
-            Worth::Uncertified { accuracy } => {
-                let Accuracy { rule, evaluations, bound, cross_check, measured, rounding } = accuracy;
-                if let Some(Deviation { texels, .. }) = cross_check {
-                    let largest = cross_check.map_or(0.0, |deviation| deviation.largest());
-                    writeln!(f, "checked   by the CPU at {texels} texels: largest difference {largest:.1e}")?;
-                }
-                writeln!(f, "rule      {rule}: {evaluations:.0} evaluations for a texel; not certified")?;
-                let Deviation { a, b, texels } = measured;
-                writeln!(f, "error     at most {bound:.1e}; measured at {texels} texels: A {a:.1e}, B {b:.1e}")?;
-                write!(f, "rounding  at most {rounding:.1e} more, in the file")
+            Claim::Uncertified { rule, error_bound, .. } => {
+                writeln!(f, "rule      {rule}; not certified, error at most {error_bound:.1e}")?;
+                self.checks.iter().try_for_each(|checks| write!(f, "{checks}"))
             }
         }
+    }
+}
+
+impl fmt::Display for Checks {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Checks { evaluations, cross_check, measured, integrals, rounding } = self;
+        writeln!(f, "cost      {evaluations:.0} evaluations for a texel")?;
+        if let Some(check) = cross_check {
+            let (texels, largest) = (check.texels, check.max());
+            writeln!(
+                f,
+                "checked   by the CPU at {texels} texels: largest difference {largest:.1e}"
+            )?;
+        }
+        let (texels, errors) = (measured.texels, measured.in_words(integrals));
+        writeln!(f, "measured  at {texels} texels against the reference: {errors}")?;
+        writeln!(f, "rounding  adds at most {rounding:.1e} in the file")
     }
 }
 
@@ -148,14 +143,19 @@ impl fmt::Display for Report {
             Computed::Cpu { reason: Some(reason) } => writeln!(f, "; not on Vulkan: {reason}")?,
             Computed::Vulkan { reason: Some(reason), .. } => writeln!(f, "; {reason}")?,
         }
-        writeln!(f, "{}", self.worth)?;
+        self.write_claim(f)?;
         let [columns, rows] = self.clamped;
         if columns + rows > 0 {
             writeln!(f, "clamped   {columns} columns and {rows} rows to the min of their axes")?;
         }
         let Seconds { integrate, check } = self.seconds;
         let each = 1e6 * integrate / (width * height) as f64;
-        write!(f, "time      {:.1} ms, {each:.2} µs for a texel; checks {:.1} ms", 1e3 * integrate, 1e3 * check)?;
+        write!(
+            f,
+            "time      {:.1} ms, {each:.2} µs for a texel; checks {:.1} ms",
+            1e3 * integrate,
+            1e3 * check
+        )?;
         if let Computed::Vulkan { device_seconds: Some(seconds), .. } = &self.computed {
             write!(f, "; of the former {:.2} ms on the device", 1e3 * seconds)?;
         }

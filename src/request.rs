@@ -1,51 +1,63 @@
-//! A checked job: which table, over which axes, how exact, stored how. It prints itself as the command that repeats it.
+//! A checked job: a table, its axes, its accuracy and its storage. It prints itself as the command
+//! that repeats it.
 
-use crate::axis::{Axis, AxisSpec, Parameter};
+use crate::brdf::Microfacet;
+use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::integrate::Integrand;
 use crate::integrate::rule::Rule;
-use crate::lut::{Grid, Lut};
-use crate::model::{Microfacet, Ndf};
-use crate::precision::Precision;
-use crate::units::word;
+use crate::lut::Lut;
+use crate::table::Layout;
+use crate::table::axis::{Axis, AxisSpec, Parameter};
+use crate::table::grid::Grid;
+use crate::table::precision::Precision;
+use crate::table::slices::Slices;
 use std::fmt;
 
-/// How exact the values have to be.
+/// The accuracy of a table's values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Accuracy {
-    /// Certified: rounded correctly, or in f32 within this absolute error before it is rounded.
-    Certified(f64),
-    /// Not certified, the integrals within this absolute error, by whatever rule is the cheapest.
+    /// Certified: every value is the true one, rounded once to the nearest. Not for f32.
+    Rounded,
+    /// Certified: every value is within this absolute error before it is rounded. For f32.
+    Within(f64),
+    /// Not certified: integrals within this absolute error, by the cheapest rule.
     Tolerance(f64),
-    /// Not certified, by this rule.
+    /// Not certified: integrals by this rule.
     Rule(Rule),
 }
 
 impl Accuracy {
-    /// Certified, in f32 with a tolerance that befits it and the lobe: f64 by the rules that devices have keeps it.
+    /// Certified; f32 within the tolerance that befits it and the lobe, which f64 by the rules of
+    /// devices keeps.
     pub fn by_default(lut: &Lut, precision: Precision) -> Self {
-        Accuracy::Certified(precision.default_tolerance().max(Rule::sharpest_device_bound(lut.integrand())))
+        let tolerance =
+            || precision.default_tolerance().max(Rule::sharpest_device_bound(lut.integrand()));
+        match precision {
+            Precision::F32 => Accuracy::Within(tolerance()),
+            Precision::F16 | Precision::Unorm16 | Precision::Unorm8 | Precision::F64 => {
+                Accuracy::Rounded
+            }
+        }
     }
 
-    /// Not certified, with a tolerance that befits the precision and that a device can keep of the table's integrand.
+    /// Not certified, with a tolerance that befits the precision and that a device can keep of the
+    /// table's integrand.
     pub fn uncertified(lut: &Lut, precision: Precision) -> Self {
-        Accuracy::Tolerance(precision.default_tolerance().max(Rule::device_tolerance(lut.integrand())))
+        Accuracy::Tolerance(
+            precision.default_tolerance().max(Rule::device_tolerance(lut.integrand())),
+        )
     }
 }
 
 /// A checked job.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
-    /// What is baked.
-    pub lut: Lut,
-    /// The axis along a row.
-    pub x: Axis,
-    /// The axis from row to row.
-    pub y: Axis,
-    /// How exact.
-    pub accuracy: Accuracy,
-    /// How stored.
-    pub precision: Precision,
+    lut: Lut,
+    layout: Layout,
+    grid: Grid,
+    accuracy: Accuracy,
+    precision: Precision,
 }
 
 /// Texels along each axis when no size is given.
@@ -53,99 +65,185 @@ pub const DEFAULT_SIZE: usize = 128;
 
 impl Request {
     /// Checks that the parts fit together.
-    pub fn new(lut: Lut, x: Axis, y: Axis, accuracy: Accuracy, precision: Precision) -> Result<Self> {
-        let request = Request { lut, x, y, accuracy, precision };
-        let (integrand, grid) = (lut.integrand(), request.grid()?);
-        if let Integrand::Specular(lobe) = integrand {
-            check_lobe(lobe, &grid)?;
+    pub fn new(
+        lut: Lut,
+        x: Axis,
+        y: Axis,
+        accuracy: Accuracy,
+        precision: Precision,
+    ) -> Result<Self> {
+        let grid = Grid::new(&x, &y)?;
+        if let Integrand::Specular(lobe, _) = lut.integrand() {
+            check_finite(lobe, &grid)?;
         }
-        if let (Accuracy::Certified(_), Precision::F64) = (accuracy, precision) {
-            let cure = "choose another, or values that are not certified";
-            return Err(Error::bad_input("precision", "one that files have, to be certified", "f64", cure));
-        }
-        match accuracy {
-            Accuracy::Certified(tolerance) | Accuracy::Tolerance(tolerance) => {
-                let needs_rule = matches!(accuracy, Accuracy::Tolerance(_)) || precision == Precision::F32;
-                if needs_rule && (Rule::for_cpu(integrand, tolerance, grid.len()).is_none() || tolerance > 0.1) {
-                    return Err(Error::bad_input(
-                        "tolerance",
-                        format!("an absolute error from {:e} to 0.1", Rule::sharpest_bound(integrand)),
-                        format!("{tolerance:e}"),
-                        "give one in that range",
-                    ));
-                }
-            }
-            Accuracy::Rule(rule) => {
-                let promises = |&alpha: &f64| rule.bound_at(integrand, alpha).is_finite();
-                if !rule.applies_to(integrand) || !grid.alphas.iter().all(promises) {
-                    return Err(Error::bad_input(
-                        "rule",
-                        "one that serves for the model at every roughness of the axis",
-                        rule.name,
-                        "choose reference, a rule whose name begins with h, or closed-form for a diffuse lobe",
-                    ));
-                }
-            }
-        }
-        Ok(request)
+        check_accuracy(&lut, &grid, accuracy, precision)?;
+        let layout = Layout { x, y, slices: None, channels: lut.channels() };
+        Ok(Request { lut, layout, grid, accuracy, precision })
     }
 
-    /// The table that every engine needs: x = n·v, y = perceptual roughness, texel centres.
+    /// The table that every engine needs: x = n·v, y = perceptual roughness, texel centres;
+    /// certified.
     pub fn with_default_axes(lut: Lut, size: (usize, usize), precision: Precision) -> Result<Self> {
         let x = Axis::new(AxisSpec::of(Parameter::Nov), size.0)?;
         let y = Axis::new(AxisSpec::of(Parameter::Roughness), size.1)?;
         Request::new(lut, x, y, Accuracy::by_default(&lut, precision), precision)
     }
 
-    /// The parameters of the texels.
-    pub fn grid(&self) -> Result<Grid> {
-        Grid::new(&self.x, &self.y)
+    /// The same table in slices; an error where it does not vary with their parameter.
+    pub fn with_slices(mut self, slices: Slices) -> Result<Self> {
+        for &value in slices.values() {
+            self.lut.at(slices.parameter(), value)?;
+        }
+        self.layout.slices = Some(slices);
+        Ok(self)
+    }
+
+    /// The same table with another accuracy and storage.
+    pub fn stored(&self, accuracy: Accuracy, precision: Precision) -> Result<Self> {
+        check_accuracy(&self.lut, &self.grid, accuracy, precision)?;
+        Ok(Request { accuracy, precision, ..self.clone() })
+    }
+
+    /// The family of tables with its choices.
+    pub fn lut(&self) -> &Lut {
+        &self.lut
+    }
+
+    /// The table of each slice; of a table without slices its own.
+    pub fn luts(&self) -> Result<Vec<Lut>> {
+        match &self.layout.slices {
+            None => Ok(vec![self.lut]),
+            Some(slices) => slices
+                .values()
+                .iter()
+                .map(|&value| self.lut.at(slices.parameter(), value))
+                .collect(),
+        }
+    }
+
+    /// Axes, slices and channels.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// The parameters of a slice's texels.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// The accuracy.
+    pub fn accuracy(&self) -> Accuracy {
+        self.accuracy
+    }
+
+    /// The storage.
+    pub fn precision(&self) -> Precision {
+        self.precision
+    }
+
+    /// Texels of all slices.
+    pub fn texels(&self) -> usize {
+        self.grid.len() * self.layout.slice_count()
+    }
+
+    /// Bytes of the table.
+    pub fn bytes(&self) -> usize {
+        self.layout.slice_count() * self.layout.values_of_slice() * self.precision.bytes()
     }
 }
 
-/// Refuses what means nothing, or has no finite value.
-fn check_lobe(lobe: Microfacet, grid: &Grid) -> Result<()> {
-    check_masking(lobe)?;
+/// Refuses a grid with a point where the albedo is infinite.
+fn check_finite(lobe: Microfacet, grid: &Grid) -> Result<()> {
     if lobe.diverges_at_grazing() && grid.mus.contains(&0.0) {
-        let (got, cure) =
-            ("n.v = 0, where this albedo is infinite", "add min=1e-4 to the axis, or choose texel centres");
+        let got = "n.v = 0, where this albedo is infinite";
+        let cure = "add min=1e-4 to the axis, or choose texel centres";
         return Err(Error::bad_input("axis of n.v", "n.v > 0", got, cure));
     }
     Ok(())
 }
 
-/// Refuses a masking term that means nothing for the distribution.
-pub fn check_masking(Microfacet { ndf, masking }: Microfacet) -> Result<()> {
-    if !ndf.maskings().contains(&masking) {
-        let expected = ndf.maskings().iter().map(word).collect::<Vec<_>>().join(", ");
-        let what = format!("masking of {}", word(ndf));
-        return Err(Error::bad_input(what, expected, word(masking), reason(ndf)));
-    }
-    Ok(())
-}
-
-/// Why a distribution takes these masking terms and no other.
-fn reason(ndf: Ndf) -> &'static str {
-    match ndf {
-        Ndf::Ggx => "neubelt is the visibility of sheen",
-        Ndf::Beckmann => "joint approximates GGX's term, and neubelt is the visibility of sheen",
-        Ndf::BeckmannWalter => "the model differs from beckmann in its Smith term alone: use beckmann for another",
-        Ndf::BlinnPhong => "schlick-smith and joint approximate other distributions' terms; neubelt is for sheen",
-        Ndf::Charlie => "its Smith term was fitted for correlated heights, and the approximations are GGX's",
+/// Refuses an accuracy that the storage does not have or no rule keeps.
+fn check_accuracy(lut: &Lut, grid: &Grid, accuracy: Accuracy, precision: Precision) -> Result<()> {
+    let integrand = lut.integrand();
+    match (accuracy, precision) {
+        (Accuracy::Rounded | Accuracy::Within(_), Precision::F64) => {
+            let cure = "choose another, or values that are not certified";
+            Err(Error::bad_input("precision", "one that files have, to be certified", "f64", cure))
+        }
+        (Accuracy::Rounded, Precision::F32) => {
+            let got = "f32 rounded correctly";
+            let cure = "certify f32 within a tolerance";
+            Err(Error::bad_input(
+                "accuracy",
+                "a storage with coarser steps, to be rounded correctly",
+                got,
+                cure,
+            ))
+        }
+        (Accuracy::Rounded, _) => Ok(()),
+        (Accuracy::Within(_), Precision::F16 | Precision::Unorm16 | Precision::Unorm8) => {
+            let expected = format!("none where values are rounded to {precision} correctly");
+            Err(Error::bad_input(
+                "tolerance",
+                expected,
+                "a tolerance",
+                "leave it out, or set certify to off",
+            ))
+        }
+        (Accuracy::Within(tolerance) | Accuracy::Tolerance(tolerance), _) => {
+            // Written so that NaN fails.
+            if tolerance <= 0.1 && Rule::for_cpu(integrand, tolerance, grid.len()).is_some() {
+                return Ok(());
+            }
+            Err(Error::bad_input(
+                "tolerance",
+                format!("an absolute error from {:e} to 0.1", Rule::sharpest_bound(integrand)),
+                format!("{tolerance:e}"),
+                "give one in that range",
+            ))
+        }
+        (Accuracy::Rule(rule), _) => {
+            let bounded = |&alpha: &f64| rule.bound_at(integrand, alpha).is_finite();
+            if rule.applies_to(integrand) && grid.alphas.iter().all(bounded) {
+                return Ok(());
+            }
+            Err(Error::bad_input(
+                "rule",
+                "one that serves for the model at every roughness of the axis",
+                rule.name,
+                "choose reference, a rule whose name begins with h, or closed-form for a diffuse \
+                 lobe",
+            ))
+        }
     }
 }
 
 impl fmt::Display for Request {
     /// The command that repeats the job.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Layout { x, y, slices, .. } = &self.layout;
         write!(f, "splitsum bake --lut {} {}", self.lut.name(), self.lut.flags())?;
-        write!(f, " --size {}x{} --x {} --y {}", self.x.size, self.y.size, self.x.spec, self.y.spec)?;
-        write!(f, " --precision {}", word(self.precision))?;
-        match self.accuracy {
-            Accuracy::Certified(tolerance) if self.precision == Precision::F32 => {
-                write!(f, " --tolerance {tolerance:e}")
+        let spec = slices.as_ref().and_then(Slices::spec);
+        match (slices, spec, self.lut.f0()) {
+            (Some(slices), None, _) => {
+                let values: Vec<String> = slices.values().iter().map(f64::to_string).collect();
+                write!(f, " --{} {}", slices.parameter().word(), values.join(","))?;
             }
-            Accuracy::Certified(_) => Ok(()),
+            (None, _, Some(f0)) => write!(f, " --f0 {f0}")?,
+            _ => (),
+        }
+        write!(f, " --size {}x{}", x.size(), y.size())?;
+        if let (Some(slices), Some(_)) = (slices, spec) {
+            write!(f, "x{}", slices.count())?;
+        }
+        write!(f, " --x {} --y {}", x.spec(), y.spec())?;
+        if let Some(spec) = spec {
+            write!(f, " --z {spec}")?;
+        }
+        write!(f, " --precision {}", self.precision)?;
+        match self.accuracy {
+            Accuracy::Rounded => Ok(()),
+            Accuracy::Within(tolerance) => write!(f, " --tolerance {tolerance:e}"),
             Accuracy::Tolerance(tolerance) => write!(f, " --certify off --tolerance {tolerance:e}"),
             Accuracy::Rule(rule) => write!(f, " --certify off --rule {}", rule.name),
         }

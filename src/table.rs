@@ -1,142 +1,202 @@
-//! A table of numbers over two axes: values, channels, lookup as a renderer does it, and how far two tables are apart.
+//! A table: stored numbers over two axes, or over three in slices, with all that a reader has to
+//! know of them.
 
-use crate::axis::Axis;
-use crate::certificate::Certificate;
-use crate::stored::Stored;
-use serde::Serialize;
+pub mod axis;
+pub mod claim;
+pub mod grid;
+pub mod packed;
+pub mod precision;
+pub mod slices;
+
+use crate::error::{Error, Result};
+use axis::Axis;
+use claim::Claim;
+use packed::Packed;
+use precision::Precision;
+use slices::Slices;
 
 /// A channel of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Channel {
     /// Its short name: `A`, `B`, `E`.
     pub name: &'static str,
-    /// What it holds.
+    /// Its meaning.
     pub meaning: &'static str,
 }
 
-/// Where a table's numbers come from and what they are worth, in words for the metadata.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Provenance {
-    /// The family of tables.
-    pub table: &'static str,
-    /// What it is for.
-    pub equation: &'static str,
-    /// The lobe.
-    pub model: String,
-    /// The masking term of a specular lobe.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub masking: Option<String>,
-    /// Fresnel of a specular lobe.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub fresnel: Option<&'static str>,
-    /// Reflectance at normal incidence, where the table is for one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub f0: Option<f64>,
-    /// What roughness means.
-    pub roughness: &'static str,
-    /// What the values are worth.
-    #[serde(flatten)]
-    pub worth: Worth,
-    /// The command that repeats the bake.
-    pub command: String,
-}
-
-/// What the values of a table are worth.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Worth {
-    /// Certified one by one.
-    Certificate(Certificate),
-    /// Not certified, but integrated by a rule whose error is bounded.
-    Uncertified {
-        /// The quadrature rule.
-        rule: &'static str,
-        /// The largest error of a value before it is stored; of values above 1 relative.
-        error_bound: f64,
-        /// The largest error found against the double-exponential reference, and over how many texels.
-        measured_error: (f64, usize),
-        /// Backend, arithmetic and device.
-        computed_by: String,
-    },
-}
-
-impl Default for Worth {
-    fn default() -> Self {
-        Worth::Certificate(Certificate::default())
-    }
-}
-
-/// Values over two axes, row by row, the channels of a texel side by side.
+/// The axes and channels of a table.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
+pub struct Layout {
     /// Along a row.
     pub x: Axis,
     /// From row to row.
     pub y: Axis,
-    /// What each value of a texel is.
+    /// From slice to slice; none of a table over two axes.
+    pub slices: Option<Slices>,
+    /// The values of a texel.
     pub channels: Vec<Channel>,
-    /// The values as they are stored, `channels.len()` for each texel.
-    pub values: Stored,
-    /// Where they come from.
-    pub provenance: Provenance,
 }
 
-/// How far two sets of values are apart.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Difference {
-    /// The largest absolute difference.
-    pub max: f64,
-    /// The root of the mean squared difference.
-    pub rms: f64,
-    /// How many values were compared.
-    pub count: usize,
+/// The origin of a table's numbers, in words for the metadata.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Provenance {
+    /// The family of tables.
+    pub table: &'static str,
+    /// The equation in which the table is used.
+    pub equation: String,
+    /// The lobe.
+    pub model: &'static str,
+    /// The masking term of a specular lobe.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub masking: Option<&'static str>,
+    /// Fresnel of a specular lobe.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub fresnel: Option<&'static str>,
+    /// Reflectance at normal incidence of a table for one F0.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub f0: Option<f64>,
+    /// The meaning of roughness.
+    pub roughness: &'static str,
+}
+
+/// The numbers of a table as they are stored, with their layout, their origin and a claim for each
+/// slice. Only a bake makes one, so that no claim can stand beside other numbers than its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    layout: Layout,
+    /// Slice by slice, row by row, the channels of a texel side by side.
+    values: Packed,
+    provenance: Vec<Provenance>,
+    claims: Vec<Claim>,
+    command: String,
+}
+
+impl Layout {
+    /// The number of slices.
+    pub fn slice_count(&self) -> usize {
+        self.slices.as_ref().map_or(1, Slices::count)
+    }
+
+    /// The number of values of a slice.
+    pub fn values_of_slice(&self) -> usize {
+        self.x.size() * self.y.size() * self.channels.len()
+    }
 }
 
 impl Table {
-    /// The values of the texel in column `i` and row `j`.
-    pub fn texel(&self, i: usize, j: usize) -> Vec<f64> {
-        (0..self.channels.len()).map(|channel| self.value(i, j, channel)).collect()
+    /// The table of these values; `provenance` and `claims` have one entry for each slice.
+    pub(crate) fn new(
+        layout: Layout,
+        values: Packed,
+        provenance: Vec<Provenance>,
+        claims: Vec<Claim>,
+        command: String,
+    ) -> Result<Self> {
+        let slices = layout.slice_count();
+        let whole = values.len() == slices * layout.values_of_slice();
+        if !whole || provenance.len() != slices || claims.len() != slices {
+            return Err(Error::Internal(
+                "a table whose values and claims do not fit its layout".into(),
+            ));
+        }
+        Ok(Table { layout, values, provenance, claims, command })
     }
 
-    /// One of them.
+    /// Axes, slices and channels.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// The axis along a row.
+    pub fn x(&self) -> &Axis {
+        &self.layout.x
+    }
+
+    /// The axis from row to row.
+    pub fn y(&self) -> &Axis {
+        &self.layout.y
+    }
+
+    /// The channels of a texel.
+    pub fn channels(&self) -> &[Channel] {
+        &self.layout.channels
+    }
+
+    /// The storage of its values.
+    pub fn precision(&self) -> Precision {
+        self.values.precision()
+    }
+
+    /// The origin of a slice's numbers.
+    pub fn provenance(&self, slice: usize) -> &Provenance {
+        &self.provenance[slice]
+    }
+
+    /// How far a slice's numbers are from the truth.
+    pub fn claim(&self, slice: usize) -> &Claim {
+        &self.claims[slice]
+    }
+
+    /// The command that repeats the bake.
+    pub fn command(&self) -> &str {
+        &self.command
+    }
+
+    /// The bytes of a slice, little-endian, row by row, the channels of a texel side by side.
+    pub fn bytes(&self, slice: usize) -> &[u8] {
+        let size = self.layout.values_of_slice() * self.precision().bytes();
+        &self.values.bytes()[slice * size..][..size]
+    }
+
+    /// The value of a channel of the texel in column `i` and row `j` of a slice.
     #[inline]
-    pub fn value(&self, i: usize, j: usize, channel: usize) -> f64 {
-        self.values.get((j * self.x.size + i) * self.channels.len() + channel)
+    pub fn value(&self, slice: usize, i: usize, j: usize, channel: usize) -> f64 {
+        let texel = (slice * self.y().size() + j) * self.x().size() + i;
+        self.values.get(texel * self.channels().len() + channel)
     }
 
-    /// BLAKE3 of the values as they are stored: little-endian, row by row, the channels of a texel side by side.
-    pub fn hash(&self) -> String {
-        blake3::hash(self.values.bytes()).to_hex().to_string()
+    /// The values of the texel in column `i` and row `j` of a slice.
+    pub fn texel(&self, slice: usize, i: usize, j: usize) -> Vec<f64> {
+        (0..self.channels().len()).map(|channel| self.value(slice, i, j, channel)).collect()
     }
 
-    /// The values of a channel, row by row.
-    pub fn plane(&self, channel: usize) -> Vec<f64> {
-        self.values.iter().skip(channel).step_by(self.channels.len()).collect()
+    /// The values of a channel of a slice, row by row.
+    pub fn plane(&self, slice: usize, channel: usize) -> Vec<f64> {
+        let (count, width) = (self.layout.values_of_slice(), self.channels().len());
+        self.values.iter().skip(slice * count).take(count).skip(channel).step_by(width).collect()
     }
 
-    /// What a renderer reads at the parameters (`px`, `py`): bilinear between texels, clamped at the border.
-    pub fn bilinear(&self, px: f64, py: f64) -> Vec<f64> {
-        let ((i0, i1, u), (j0, j1, v)) = (self.x.neighbours(px), self.y.neighbours(py));
-        (0..self.channels.len())
-            .map(|c| {
-                let low = self.value(i0, j0, c) * (1.0 - u) + self.value(i1, j0, c) * u;
-                let high = self.value(i0, j1, c) * (1.0 - u) + self.value(i1, j1, c) * u;
-                low * (1.0 - v) + high * v
-            })
+    /// The values that a renderer reads from a slice at the parameters (`px`, `py`): bilinear
+    /// between texels, clamped at the border.
+    pub fn bilinear(&self, slice: usize, px: f64, py: f64) -> Vec<f64> {
+        let place = bilinear(self.x(), self.y(), px, py);
+        (0..self.channels().len())
+            .map(|channel| place.read(|i, j| self.value(slice, i, j, channel)))
             .collect()
     }
 }
 
-impl Difference {
-    /// Of two sequences of the same length; NaN anywhere makes it NaN.
-    pub fn between(pairs: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        let (mut max, mut squares, mut count) = (0.0f64, 0.0, 0);
-        for (a, b) in pairs {
-            let d = (a - b).abs();
-            max = if d <= max { max } else { d };
-            squares += d * d;
-            count += 1;
-        }
-        Difference { max, rms: (squares / f64::from(count.max(1))).sqrt(), count: count as usize }
+/// The four texels around a place, and the weights of the second of each pair.
+#[derive(Clone, Copy, Debug)]
+pub struct Bilinear {
+    columns: [usize; 2],
+    rows: [usize; 2],
+    weights: [f64; 2],
+}
+
+/// The texels that bilinear lookup at the parameters (`px`, `py`) reads, clamped at the border.
+pub fn bilinear(x: &Axis, y: &Axis, px: f64, py: f64) -> Bilinear {
+    let ((i0, i1, u), (j0, j1, v)) = (x.neighbours(px), y.neighbours(py));
+    Bilinear { columns: [i0, i1], rows: [j0, j1], weights: [u, v] }
+}
+
+impl Bilinear {
+    /// The value between those of the four texels, given by column and row.
+    pub fn read(&self, value: impl Fn(usize, usize) -> f64) -> f64 {
+        let ([i0, i1], [j0, j1], [u, v]) = (self.columns, self.rows, self.weights);
+        let low = value(i0, j0) * (1.0 - u) + value(i1, j0) * u;
+        let high = value(i0, j1) * (1.0 - u) + value(i1, j1) * u;
+        low * (1.0 - v) + high * v
     }
 }

@@ -25,10 +25,10 @@ pub struct F0(f64);
 /// α below this and above 0 is refused: α² must stay a normal number in f32. It is r = 5e-10.
 pub const SMALLEST_ALPHA: f64 = 2.5e-19;
 
-/// n·v below this and above 0 is refused. No formula comes near an end of its numbers there: the square of n·v, by
-/// which the reference divides, underflows in f64 below 1e-154, and n·v itself in f32 below 1e-38; 1e-30 is what
-/// models keep denominators above. No table needs less: a lobe at n·v = 1e-30 differs from its limit at 0 by less
-/// than any rule's bound, unless it has no limit.
+/// n·v below this and above 0 is refused. No formula comes near an end of its numbers there: the
+/// square of n·v, by which the reference divides, underflows in f64 below 1e-154, and n·v itself in
+/// f32 below 1e-38; 1e-30 is what models keep denominators above. No table needs less: a lobe at
+/// n·v = 1e-30 differs from its limit at 0 by less than any rule's bound, unless it has no limit.
 pub const SMALLEST_COSINE: f64 = 1e-30;
 
 /// A number in words of the command line: short where it has a hundred zeros.
@@ -46,7 +46,12 @@ macro_rules! unit {
                 if valid(value) {
                     Ok($name(value))
                 } else {
-                    Err(Error::bad_input($what, $expected, short(value), "give a value in that range"))
+                    Err(Error::bad_input(
+                        $what,
+                        $expected,
+                        short(value),
+                        "give a value in that range",
+                    ))
                 }
             }
 
@@ -75,6 +80,11 @@ pub fn roughness_of(alpha: f64) -> f64 {
     alpha.sqrt()
 }
 
+/// α² = 2/(n+2) of the exponent n of Blinn-Phong (Walter et al. 2007, section 5.2).
+pub fn alpha_of_exponent(n: f64) -> f64 {
+    (2.0 / (n + 2.0)).sqrt()
+}
+
 impl From<PerceptualRoughness> for Alpha {
     fn from(r: PerceptualRoughness) -> Self {
         Alpha(alpha_of(r.0))
@@ -86,13 +96,5 @@ impl From<Ior> for F0 {
     fn from(n: Ior) -> Self {
         let r = (1.0 - n.0) / (1.0 + n.0);
         F0(r * r)
-    }
-}
-
-/// A choice as the command line, the configuration and the metadata spell it.
-pub fn word(choice: impl serde::Serialize) -> String {
-    match serde_json::to_value(choice) {
-        Ok(serde_json::Value::String(text)) => text,
-        _ => String::new(),
     }
 }

@@ -1,8 +1,8 @@
 //! Axes: the parameter of a texel, its inverse, and the conventions that other tools use.
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
-use splitsum::axis::{Axis, AxisSpec};
-use splitsum::lut::Grid;
+use splitsum::table::axis::{Axis, AxisSpec, Nodes, Parameter};
+use splitsum::table::grid::Grid;
 
 fn axis(words: &str, size: usize) -> Axis {
     Axis::new(words.parse().unwrap(), size).unwrap()
@@ -15,11 +15,53 @@ fn texel_is_the_inverse_of_value() {
             for flip in ["", ",flip"] {
                 let axis = axis(&format!("nov,{mapping},{nodes}{flip}"), 37);
                 for i in 0..37 {
-                    // The square root of 1 - t² loses half the digits at t = 0; every other node is exact to rounding.
+                    // The square root of 1 - t² loses half the digits at t = 0; every other node is
+                    // exact to rounding.
                     let slack = if mapping == "sqrt-complement" { 37.0 * 1.5e-8 } else { 1e-13 };
                     let back = axis.texel(axis.value(i));
-                    assert!((back - i as f64).abs() < slack, "{} texel {i} came back as {back}", axis.spec);
+                    assert!(
+                        (back - i as f64).abs() < slack,
+                        "{} texel {i} came back as {back}",
+                        axis.spec()
+                    );
                 }
+            }
+        }
+    }
+}
+
+/// The value of an expression of WGSL, by naga's evaluator of constants.
+fn evaluated(expression: &str) -> f64 {
+    let module = naga::front::wgsl::parse_str(&format!("const t: f32 = {expression};")).unwrap();
+    let (_, constant) = module.constants.iter().next().unwrap();
+    match module.global_expressions[constant.init] {
+        naga::Expression::Literal(naga::Literal::F32(value)) => value.into(),
+        ref other => panic!("{expression} gave {other:?}"),
+    }
+}
+
+#[test]
+fn uv_is_the_centre_of_the_texel_that_holds_the_parameter() {
+    for (parameter, mapping) in [
+        ("nov", "linear"),
+        ("nov", "sqrt"),
+        ("roughness", "sqrt-complement"),
+        ("alpha", "sqrt"),
+        ("exponent", "linear"),
+    ] {
+        for nodes in ["centres", "edges", "offset=0.25", "offset=0.25,flip", "edges,flip"] {
+            let axis = axis(&format!("{parameter},{mapping},{nodes}"), 37);
+            for i in [0, 1, 17, 35, 36] {
+                let p = match parameter {
+                    "exponent" => 10f64.powf(7.0 * axis.value(i)),
+                    _ => axis.value(i),
+                };
+                let uv = evaluated(&axis.uv(&format!("f32({p:?})")));
+                let expected = (axis.texel(axis.value(i)) + 0.5) / 37.0;
+                // The parameter is rounded to f32, and the square root of 1 - t² makes up to the
+                // root of 2^-24 of that.
+                let slack = if mapping == "sqrt-complement" { 2.5e-4 } else { 1e-6 };
+                assert!((uv - expected).abs() < slack, "{}: {i} at {uv}", axis.spec());
             }
         }
     }
@@ -38,7 +80,8 @@ fn ends_are_where_the_nodes_say() {
 
 #[test]
 fn known_conventions_can_be_said() {
-    // Filament stores roughness flipped and one texel off: row y holds (h - y + 0.5)/h, clamped to 1.
+    // Filament stores roughness flipped and one texel off: row y holds (h - y + 0.5)/h, clamped to
+    // 1.
     let filament = axis("roughness,offset=1.5,flip", 64);
     for y in 0..64 {
         assert_eq!(filament.value(y), ((64.0 - y as f64 + 0.5) / 64.0).min(1.0));
@@ -51,7 +94,11 @@ fn known_conventions_can_be_said() {
 
 #[test]
 fn words_read_back_to_the_same_axis() {
-    for words in ["nov,linear,centres", "roughness,sqrt,edges,flip", "alpha,sqrt-complement,offset=-0.25,min=0.001"] {
+    for words in [
+        "nov,linear,centres",
+        "roughness,sqrt,edges,flip",
+        "alpha,sqrt-complement,offset=-0.25,min=0.001",
+    ] {
         let spec: AxisSpec = words.parse().unwrap();
         assert_eq!(spec.to_string(), words);
     }
@@ -61,7 +108,9 @@ fn words_read_back_to_the_same_axis() {
 #[test]
 fn a_texel_is_clamped_where_the_min_raises_it_and_not_where_it_is_the_min() {
     // Texels at 0, 1/4, …, 1.
-    for (words, clamped) in [("nov,edges,min=0.25", 1), ("nov,edges,min=0.2501", 2), ("nov,edges", 0)] {
+    for (words, clamped) in
+        [("nov,edges,min=0.25", 1), ("nov,edges,min=0.2501", 2), ("nov,edges", 0)]
+    {
         assert_eq!(axis(words, 5).clamped(), clamped, "{words}");
         assert_eq!(axis(&words.replace("edges", "edges,flip"), 5).clamped(), clamped, "{words}");
     }
@@ -69,16 +118,33 @@ fn a_texel_is_clamped_where_the_min_raises_it_and_not_where_it_is_the_min() {
 
 #[test]
 fn wrong_words_sizes_and_values_are_refused() {
-    for words in
-        ["", "mu", "nov,cubic", "nov,offset", "nov,offset=x", "nov,offset=nan", "nov,offset=3", "nov,min=2", "nov,,"]
-    {
+    for words in [
+        "",
+        "mu",
+        "nov,cubic",
+        "nov,offset",
+        "nov,offset=x",
+        "nov,offset=nan",
+        "nov,offset=3",
+        "nov,min=2",
+        "nov,,",
+        "nov,sqrt,linear",
+        "nov,edges,centres",
+        "nov,min=0.1,min=0.2",
+    ] {
         assert!(words.parse::<AxisSpec>().is_err(), "{words:?} was taken");
+    }
+    for (offset, min) in [(f64::NAN, 0.0), (1e9, 0.0), (0.5, f64::NAN), (0.5, -1.0), (0.5, 2.0)] {
+        let spec = AxisSpec { nodes: Nodes::Offset(offset), min, ..AxisSpec::of(Parameter::Nov) };
+        assert!(Axis::new(spec, 4).is_err(), "{spec:?}");
     }
     for size in [0, 16385, usize::MAX] {
         assert!(Axis::new("nov".parse().unwrap(), size).is_err());
     }
     // n·v so small that its square is no number; 0 is its limit.
-    for (min, taken) in [("1e-200", false), ("5e-324", false), ("9.9e-31", false), ("1e-30", true), ("0", true)] {
+    for (min, taken) in
+        [("1e-200", false), ("5e-324", false), ("9.9e-31", false), ("1e-30", true), ("0", true)]
+    {
         let axis = Axis::new(format!("nov,edges,min={min}").parse().unwrap(), 2);
         assert_eq!(axis.is_ok(), taken, "n.v from {min}");
         let said = axis.err().map_or(String::new(), |error| error.to_string());

@@ -1,26 +1,38 @@
-//! The bounds of the rules: a short search for the largest error over its bound, the places where bounds have once
-//! been broken, and that whoever states too small a bound is found out. `splitsum chart bounds` searches at length
-//! (docs/bounds.md).
+//! The bounds of the rules: a short search for the largest error over its bound, the places where
+//! bounds have once been broken, and that whoever states too small a bound is found out. `splitsum
+//! chart bounds` searches at length (docs/bounds.md).
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;
 #[path = "common/program.rs"]
 mod program;
 
-use common::ggx;
+use common::{Integrator, errors_at, ggx};
 use program::{run, stderr};
+use splitsum::brdf::{Diffuse, Fresnel, Masking, Microfacet, Ndf};
+use splitsum::compare::study::bounds::{
+    Finding, Plan, Search, Specular, check, everything, search,
+};
 use splitsum::error::ExitCode;
-use splitsum::integrate::rule::{MARGIN, REFERENCE, RULES, Rule};
+use splitsum::integrate::double_exponential::DoubleExponentialRule;
+use splitsum::integrate::rule::{MARGIN, Method, Rule};
 use splitsum::integrate::rules::{CLOSED_FORM, D6144, D10240, H640, L4608, S2304};
+use splitsum::integrate::rules::{REFERENCE, RULES};
 use splitsum::integrate::{Integrand, ScaleBias};
-use splitsum::model::{Diffuse, Masking, Microfacet, Ndf};
-use splitsum::study::bounds::{Plan, Search, check, everything, search};
 use splitsum::units::{SMALLEST_ALPHA, SMALLEST_COSINE};
 
 /// A search of a few seconds: so many rounds, whatever the time.
 const SHORT: Plan = Plan { seed: 5, starts: 24, steps: 3, rounds: 2, seconds: 0.0 };
 
-fn searched(plan: Plan, rules: &[(Microfacet, Rule)]) -> Search {
+fn schlick(lobe: Microfacet) -> Specular {
+    (lobe, Fresnel::Schlick)
+}
+
+fn integrand((lobe, fresnel): Specular) -> Integrand {
+    Integrand::Specular(lobe, fresnel)
+}
+
+fn searched(plan: Plan, rules: &[(Specular, Rule)]) -> Search {
     search(plan, rules, &[], &|_| ()).unwrap()
 }
 
@@ -29,10 +41,13 @@ fn a_short_search_finds_every_bound_kept_with_its_margin() {
     let all = everything();
     let found = searched(SHORT, &all);
     check(&found).unwrap();
-    for &(lobe, rule) in all.iter().filter(|(lobe, rule)| rule.bound(*lobe).is_finite()) {
-        let of =
-            |channel| found.findings.iter().find(|f| (f.rule, f.lobe, f.channel) == (rule.name, lobe.into(), channel));
-        for finding in ['A', 'B'].map(|channel| of(channel).unwrap()) {
+    for &((lobe, fresnel), rule) in
+        all.iter().filter(|(specular, rule)| rule.bound(integrand(*specular)).is_finite())
+    {
+        for integral in fresnel.definition().integrals.iter().map(|integral| integral.name) {
+            let sought = (rule.name, lobe.into(), fresnel, integral);
+            let of = |f: &&Finding| (f.rule, f.lobe, f.fresnel, f.integral) == sought;
+            let finding = found.findings.iter().find(of).unwrap();
             assert!(finding.ratio() <= 1.0 / MARGIN && finding.ratio() > 0.0, "{finding:?}");
         }
     }
@@ -40,7 +55,8 @@ fn a_short_search_finds_every_bound_kept_with_its_margin() {
 
 #[test]
 fn a_search_depends_on_nothing_but_its_seed() {
-    let rules = [(ggx(Masking::Joint), D6144), (ggx(Masking::Joint), H640)];
+    let lobe = schlick(ggx(Masking::HeightCorrelatedApprox));
+    let rules = [(lobe, D6144), (lobe, H640)];
     assert_eq!(searched(SHORT, &rules), searched(SHORT, &rules));
     assert_ne!(searched(SHORT, &rules), searched(Plan { seed: 6, ..SHORT }, &rules));
 }
@@ -51,29 +67,42 @@ fn a_bound_that_is_too_small_is_found_out() {
     for rule in [S2304, L4608, D10240, D6144, H640, REFERENCE] {
         // Each is known to err by more than a fiftieth of its bound.
         let small = rule.promising(rule.bound(lobe) / 50.0);
-        let error = check(&searched(SHORT, &[(lobe, small)])).unwrap_err();
+        let error = check(&searched(SHORT, &[(schlick(lobe), small)])).unwrap_err();
         assert_eq!(error.exit_code(), ExitCode::CheckFailed);
         assert!(error.to_string().contains(rule.name), "{error}");
         // The same places with a bound that holds: it is the bound that was found out.
-        check(&searched(SHORT, &[(lobe, rule.promising(MARGIN * rule.bound(lobe)))])).unwrap();
+        check(&searched(SHORT, &[(schlick(lobe), rule.promising(MARGIN * rule.bound(lobe)))]))
+            .unwrap();
     }
-    // What is no number keeps no bound: a rule that gives NaN for this lobe.
-    assert!(check(&searched(SHORT, &[(lobe, CLOSED_FORM.promising(1e300))])).is_err());
+    // What is no number keeps no bound: one node has no distance to the next, and gives NaN.
+    let mut nothing = D6144.promising(1e300);
+    nothing.method = Method::DoubleExponential(DoubleExponentialRule { outer: 1, inner: 1 });
+    assert!(
+        splitsum::backend::cpu::bake_points(lobe, &[(0.5, 0.25)], &nothing)
+            .values()
+            .iter()
+            .all(|v| v.is_nan())
+    );
+    assert!(check(&searched(SHORT, &[(schlick(lobe), nothing)])).is_err());
 }
 
-/// The share of its bound by which a rule errs in A or B, whichever is larger; infinite for what is no number.
-fn share(lobe: Microfacet, rule: &Rule, mu: f64, alpha: f64) -> f64 {
-    let at = |rule: &Rule| match splitsum::backend::cpu::bake_points(lobe, &[(mu, alpha)], rule)[..] {
-        [value] => value,
-        _ => ScaleBias { a: f64::NAN, b: f64::NAN },
+/// The share of its bound by which a rule errs in the integral where that is largest; infinite for
+/// what is no number.
+fn share(specular: Specular, rule: &Rule, mu: f64, alpha: f64) -> f64 {
+    let at = |rule: &Rule| {
+        splitsum::backend::cpu::bake_points(integrand(specular), &[(mu, alpha)], rule)
     };
     let (value, truth) = (at(rule), at(&rule.yardstick()));
-    let bound = rule.errors_at(lobe, alpha, value);
-    let share = |value: f64, truth: f64, bound: f64| {
+    let bounds = rule.errors(integrand(specular)).at(alpha, value.at(0));
+    let share = |((value, truth), bound): ((&f64, &f64), f64)| {
         let error = (value - truth).abs();
-        if error.is_finite() { if error == 0.0 { 0.0 } else { error / bound } } else { f64::INFINITY }
+        if error.is_finite() {
+            if error == 0.0 { 0.0 } else { error / bound }
+        } else {
+            f64::INFINITY
+        }
     };
-    share(value.a, truth.a, bound.a).max(share(value.b, truth.b, bound.b))
+    value.at(0).iter().zip(truth.at(0)).zip(bounds).map(share).fold(0.0, f64::max)
 }
 
 #[test]
@@ -111,25 +140,38 @@ fn places_that_once_broke_a_bound_keep_it_for_every_lobe() {
         (0.0, 1.0),
         (1.0, 1.0),
     ];
-    for (lobe, rule) in everything().into_iter().filter(|(lobe, rule)| rule.bound(*lobe).is_finite()) {
-        for (mu, alpha) in places.into_iter().filter(|&(mu, _)| mu > 0.0 || !lobe.diverges_at_grazing()) {
-            let share = share(lobe, &rule, mu, alpha);
-            assert!(share <= 1.0 / MARGIN, "{} of {lobe:?} errs by {share} of its bound at ({mu}, {alpha})", rule.name);
+    let bounded =
+        |(specular, rule): &(Specular, Rule)| rule.bound(integrand(*specular)).is_finite();
+    for (specular, rule) in everything().into_iter().filter(bounded) {
+        for (mu, alpha) in
+            places.into_iter().filter(|&(mu, _)| mu > 0.0 || !specular.0.diverges_at_grazing())
+        {
+            let share = share(specular, &rule, mu, alpha);
+            let name = rule.name;
+            assert!(
+                share <= 1.0 / MARGIN,
+                "{name} of {specular:?} errs by {share} of its bound at ({mu}, {alpha})"
+            );
         }
     }
 }
 
 #[test]
 fn at_the_smallest_cosine_a_lobe_has_its_limit() {
-    // From n·v = 1e-30 to 0 an albedo moves by about n·v/α ln: 1e-10 of a lobe of the smallest α, nothing that counts
-    // elsewhere.
-    let integrator = REFERENCE.integrator();
+    // From n·v = 1e-30 to 0 an albedo moves by about n·v/α ln: 1e-10 of a lobe of the smallest α,
+    // nothing that counts elsewhere.
+    let integrator = Integrator::new(REFERENCE);
     for lobe in Microfacet::all().filter(|lobe| !lobe.diverges_at_grazing()) {
         for alpha in [SMALLEST_ALPHA, 1e-9, 1e-3, 0.3, 1.0] {
-            let (near, limit) =
-                (integrator.integrate(lobe, SMALLEST_COSINE, alpha), integrator.integrate(lobe, 0.0, alpha));
+            let (near, limit) = (
+                integrator.integrate(lobe, SMALLEST_COSINE, alpha),
+                integrator.integrate(lobe, 0.0, alpha),
+            );
             let apart = (near.a - limit.a).abs().max((near.b - limit.b).abs()) / limit.e().max(1.0);
-            assert!(apart <= 1e-9, "{lobe:?} at alpha = {alpha:e}: {near:?}, in the limit {limit:?}");
+            assert!(
+                apart <= 1e-9,
+                "{lobe:?} at alpha = {alpha:e}: {near:?}, in the limit {limit:?}"
+            );
         }
     }
 }
@@ -137,37 +179,56 @@ fn at_the_smallest_cosine_a_lobe_has_its_limit() {
 #[test]
 fn rules_serve_for_the_lobes_that_are_named_and_for_no_other() {
     let served = |rule: &Rule| Microfacet::all().filter(|lobe| rule.applies_to(*lobe)).count();
-    use Masking::{HeightCorrelated, Implicit, Joint, SchlickSmith, Separable};
-    for (masking, l_space, surrogate) in [
+    use Masking::{HeightCorrelated, HeightCorrelatedApprox, Implicit, SchlickSmith, Separable};
+    for (masking, light_directions, interpolant) in [
         (HeightCorrelated, true, true),
         (Separable, true, true),
         (SchlickSmith, true, true),
-        (Joint, false, false),
+        (HeightCorrelatedApprox, false, false),
         (Implicit, true, false),
     ] {
         assert_eq!(
             (L4608.applies_to(ggx(masking)), S2304.applies_to(ggx(masking))),
-            (l_space, surrogate),
+            (light_directions, interpolant),
             "{masking:?}"
         );
     }
     assert_eq!((served(&L4608), served(&S2304), served(&CLOSED_FORM)), (4, 3, 0));
-    for rule in RULES.iter().filter(|rule| !["closed-form", "l", "s"].iter().any(|kind| rule.name.starts_with(kind))) {
+    for rule in RULES
+        .iter()
+        .filter(|rule| !["closed-form", "l", "s"].iter().any(|kind| rule.name.starts_with(kind)))
+    {
         assert_eq!(served(rule), Microfacet::all().count(), "{}", rule.name);
     }
-    assert!(RULES.iter().all(|rule| rule.applies_to(Integrand::Diffuse(Diffuse::Burley)) == (*rule == CLOSED_FORM)));
+    assert!(
+        RULES
+            .iter()
+            .all(|rule| rule.applies_to(Integrand::Diffuse(Diffuse::Burley))
+                == (*rule == CLOSED_FORM))
+    );
 }
 
 #[test]
 fn charlie_has_its_own_bounds() {
     let lobe = |masking| Microfacet { ndf: Ndf::Charlie, masking };
     let value = ScaleBias { a: 0.5, b: 0.1 };
-    let at = |rule: Rule, masking, alpha| rule.errors_at(lobe(masking), alpha, value).a;
-    // As sharp as any lobe's from roughness 0.07 up, less so below, and nothing of the coarser rules there.
-    assert_eq!((at(REFERENCE, Masking::Neubelt, 0.005), at(REFERENCE, Masking::Neubelt, 0.0048)), (1e-13, 2e-6));
-    assert_eq!((at(D10240, Masking::Neubelt, 0.005), at(D10240, Masking::Neubelt, 0.0048)), (6e-9, f64::INFINITY));
-    // Its own where the others' are finer, and another one where its fitted term lets the ring's tail be seen.
-    assert_eq!((H640.bound(lobe(Masking::Neubelt)), H640.bound(lobe(Masking::HeightCorrelated))), (5e-5, 6e-4));
+    let at = |rule: Rule, masking, alpha| errors_at(&rule, lobe(masking), alpha, value).a;
+    // As sharp as any lobe's from roughness 0.07 up, less so below, and nothing of the coarser
+    // rules there.
+    assert_eq!(
+        (at(REFERENCE, Masking::Neubelt, 0.005), at(REFERENCE, Masking::Neubelt, 0.0048)),
+        (1e-13, 2e-6)
+    );
+    assert_eq!(
+        (at(D10240, Masking::Neubelt, 0.005), at(D10240, Masking::Neubelt, 0.0048)),
+        (6e-9, f64::INFINITY)
+    );
+    // Its own where the others' are finer, and another one where its fitted term lets the ring's
+    // tail be seen.
+    assert_eq!(
+        (H640.bound(lobe(Masking::Neubelt)), H640.bound(lobe(Masking::HeightCorrelated))),
+        (5e-5, 6e-4)
+    );
 }
 
 #[test]
@@ -177,7 +238,10 @@ fn views_below_the_smallest_are_refused_and_what_failed_is_baked() {
         for lobe in ["--model beckmann", "", "--lut diffuse"] {
             let output = run(
                 &folder,
-                &format!("bake {lobe} --size 2x2 --x nov,edges,min={min} --y roughness,edges,min=0.9 -o n.exr"),
+                &format!(
+                    "bake {lobe} --size 2x2 --x nov,edges,min={min} --y roughness,edges,min=0.9 \
+                     -o n.exr"
+                ),
             );
             assert_eq!(output.status.code(), Some(4), "{min} {lobe}: {}", stderr(&output));
             assert!(stderr(&output).contains("expected 0, or 1e-30 to 1"), "{}", stderr(&output));
@@ -197,10 +261,16 @@ fn views_below_the_smallest_are_refused_and_what_failed_is_baked() {
 fn the_page_has_every_rule_and_what_it_says_holds() {
     let page = include_str!("../docs/bounds.md");
     let rows = page.lines().filter(|line| line.starts_with("| `"));
-    let share = |row: &str| row.trim_end_matches(" |").rsplit("| ").next().and_then(|share| share.parse::<f64>().ok());
+    let share = |row: &str| {
+        row.trim_end_matches(" |").rsplit("| ").next().and_then(|share| share.parse::<f64>().ok())
+    };
     assert!(rows.clone().all(|row| share(row).is_some_and(|share| share <= 1.0 / MARGIN)));
     for rule in RULES.iter().filter(|rule| **rule != CLOSED_FORM) {
-        assert!(rows.clone().any(|row| row.starts_with(&format!("| `{}` | CPU |", rule.name))), "no {}", rule.name);
+        assert!(
+            rows.clone().any(|row| row.starts_with(&format!("| `{}` | CPU |", rule.name))),
+            "no {}",
+            rule.name
+        );
     }
     // Both software drivers were searched.
     assert!(page.contains("| llvmpipe |") && page.contains("| SwiftShader Device |"));

@@ -1,5 +1,6 @@
-//! Who computes a table, and that it does not matter: the rule of `--backend auto`, and the same bytes on any number
-//! of threads. That devices give them too is tested in tests/vulkan/certified.rs.
+//! Who computes a table, and that it does not matter: the rule of `--backend auto`, and the same
+//! bytes on any number of threads. That devices give them too is tested in
+//! tests/vulkan/certified.rs.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;
@@ -8,8 +9,7 @@ mod program;
 
 use program::{ok, run, splitsum, stderr};
 use splitsum::backend::{Backend, BackendChoice, VULKAN_START};
-use splitsum::model::Microfacet;
-use splitsum::units::word;
+use splitsum::brdf::Microfacet;
 use std::fs;
 use tempfile::tempdir;
 
@@ -21,10 +21,14 @@ fn the_same_request_gives_the_same_bytes_on_any_number_of_threads() {
     let folder = tempdir().unwrap();
     let lobes = Microfacet::all().map(|Microfacet { ndf, masking }| {
         // Charlie's albedo is infinite at n.v = 0, and certified from a roughness of 0.07 on.
-        format!("--model {} --masking {} --size 128 --x nov,min=1e-4 --y roughness,min=0.07", word(ndf), word(masking))
+        format!(
+            "--model {ndf} --masking {masking} --size 128 --x nov,min=1e-4 --y roughness,min=0.07"
+        )
     });
     for table in ["--size 512".to_owned()].into_iter().chain(lobes) {
-        let bytes = |threads| ok(&folder, &format!("bake --backend cpu {table} -q -o - --threads {threads}")).stdout;
+        let bytes = |threads| {
+            ok(&folder, &format!("bake --backend cpu {table} -q -o - --threads {threads}")).stdout
+        };
         let one = bytes(1);
         assert!(one.len() > 500);
         assert!([2, 5].into_iter().all(|threads| bytes(threads) == one), "{table}");
@@ -43,11 +47,17 @@ fn auto_takes_a_device_when_it_saves_more_than_starting_it_costs() {
     for (bake, reason) in [
         ("bake -o a.exr", "would save 0.0 ms"),
         ("bake --size 8 --model beckmann -o a.exr", "and starting one takes 30 ms"),
-        ("bake --precision f32 --model beckmann -o a.exr", "of which a device could decide no value"),
+        (
+            "bake --precision f32 --model beckmann -o a.exr",
+            "of which a device could decide no value",
+        ),
         ("bake --lut diffuse -o a.exr", "closed forms"),
     ] {
         let text = stderr(&ok(&folder, bake));
-        assert!(text.contains("computed  by CPU, f64; not on Vulkan: ") && text.contains(reason), "{bake}: {text}");
+        assert!(
+            text.contains("computed  by CPU, f64; not on Vulkan: ") && text.contains(reason),
+            "{bake}: {text}"
+        );
     }
     let text = stderr(&ok(&folder, LARGE));
     assert!(text.contains("by Vulkan, f32: ") || text.contains("not on Vulkan: Vulkan"), "{text}");
@@ -59,7 +69,11 @@ fn what_only_the_cpu_can_do_is_an_error_on_vulkan_and_a_reason_on_auto() {
     let folder = tempdir().unwrap();
     let output = run(&folder, "bake --size 4 --rule l288 -o a.exr");
     assert!(output.status.success(), "{}", stderr(&output));
-    assert!(stderr(&output).contains("computed  by CPU, f64; not on Vulkan: rule: expected"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("computed  by CPU, f64; not on Vulkan: rule: expected"),
+        "{}",
+        stderr(&output)
+    );
 }
 
 #[test]
@@ -69,7 +83,8 @@ fn without_a_driver_auto_says_why_and_vulkan_fails() {
         splitsum(folder.path(), arguments).env("VK_DRIVER_FILES", drivers).output().unwrap()
     };
     fs::write(folder.path().join("bad.json"), "not JSON").unwrap();
-    let library = r#"{"file_format_version":"1.0.0","ICD":{"library_path":"./nothing.so","api_version":"1.3.0"}}"#;
+    let driver = r#"{"library_path":"./nothing.so","api_version":"1.3.0"}"#;
+    let library = format!(r#"{{"file_format_version":"1.0.0","ICD":{driver}}}"#);
     fs::write(folder.path().join("missing.json"), library).unwrap();
     for drivers in ["/nowhere.json", "bad.json", "missing.json"] {
         let drivers = folder.path().join(drivers).to_string_lossy().into_owned();
@@ -86,6 +101,11 @@ fn without_a_driver_auto_says_why_and_vulkan_fails() {
     fs::create_dir(folder.path().join("lib")).unwrap();
     fs::write(folder.path().join("lib/libvulkan.so.1"), "xx").unwrap();
     let library_path = folder.path().join("lib");
-    let output = splitsum(folder.path(), LARGE).env("LD_LIBRARY_PATH", library_path).output().unwrap();
-    assert!(output.status.success() && stderr(&output).contains("not on Vulkan: Vulkan"), "{}", stderr(&output));
+    let output =
+        splitsum(folder.path(), LARGE).env("LD_LIBRARY_PATH", library_path).output().unwrap();
+    assert!(
+        output.status.success() && stderr(&output).contains("not on Vulkan: Vulkan"),
+        "{}",
+        stderr(&output)
+    );
 }

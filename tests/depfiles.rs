@@ -1,6 +1,7 @@
-//! Dependency files as make and ninja read them: built once, all is up to date; after a change of the configuration
-//! it is not. A tool that is not installed is reported as ignored, with the reason; where SPLITSUM_REQUIRE_MAKE is
-//! set (in .ci/run, which installs both), that is a failure instead.
+//! Dependency files as make and ninja read them: built once, all is up to date; after a change of
+//! the configuration it is not. A tool that is not installed is reported as ignored, with the
+//! reason; where SPLITSUM_REQUIRE_MAKE is set (in .ci/run, which installs both), that is a failure
+//! instead.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use libtest_mimic::{Arguments, Failed, Trial};
@@ -21,7 +22,10 @@ fn main() {
         of_tool("make", "reads every name", || all(make_reads)),
         of_tool("make", "reads several outputs", make_reads_several),
         of_tool("ninja", "reads every name that it can read", || all(ninja_reads)),
-        Trial::test("names that make cannot read are refused before any work", unreadable_names_are_refused),
+        Trial::test(
+            "names that make cannot read are refused before any work",
+            unreadable_names_are_refused,
+        ),
     ];
     libtest_mimic::run(&Arguments::from_args(), trials).exit();
 }
@@ -31,10 +35,11 @@ fn of_tool(tool: &'static str, what: &str, test: fn() -> Result<(), Failed>) -> 
     let installed = cfg!(unix) && Command::new(tool).arg("--version").output().is_ok();
     match (installed, std::env::var_os("SPLITSUM_REQUIRE_MAKE")) {
         (true, _) => Trial::test(name, test),
-        (false, None) => Trial::test(format!("{name} ({tool} is not installed)"), || Ok(())).with_ignored_flag(true),
-        (false, Some(_)) => {
-            Trial::test(name, move || Err(format!("SPLITSUM_REQUIRE_MAKE is set, but there is no {tool}").into()))
-        }
+        (false, None) => Trial::test(format!("{name} ({tool} is not installed)"), || Ok(()))
+            .with_ignored_flag(true),
+        (false, Some(_)) => Trial::test(name, move || {
+            Err(format!("SPLITSUM_REQUIRE_MAKE is set, but there is no {tool}").into())
+        }),
     }
 }
 
@@ -49,7 +54,13 @@ fn all(test: fn(&Case) -> Result<(), String>) -> Result<(), Failed> {
 fn cases() -> Vec<Case> {
     let mut names: Vec<String> = Vec::new();
     for c in " #:$%|;\t=&*?[]\\~(){}!^@<>'\",+`-é".chars() {
-        let forms = [format!("a{c}b"), format!("{c}b"), format!("a{c}"), format!("a\\{c}b"), format!("a\\\\{c}{c}b")];
+        let forms = [
+            format!("a{c}b"),
+            format!("{c}b"),
+            format!("a{c}"),
+            format!("a\\{c}b"),
+            format!("a\\\\{c}{c}b"),
+        ];
         names.extend(forms);
     }
     let alphabet: Vec<char> = "ab\\\\\\ #:$%|;\t=&*[".chars().collect();
@@ -64,7 +75,9 @@ fn cases() -> Vec<Case> {
     }
     let words = ["define", "undefine", "override", "export", "private", "include", ".hidden"];
     names.extend(["a folder/of tables/a:b#c"].into_iter().chain(words).map(String::from));
-    let cases = names.into_iter().flat_map(|name| [true, false].map(|target| Case { name: name.clone(), target }));
+    let cases = names
+        .into_iter()
+        .flat_map(|name| [true, false].map(|target| Case { name: name.clone(), target }));
     cases.filter(Case::is_readable).collect()
 }
 
@@ -76,8 +89,8 @@ impl Case {
             || self.name.ends_with(')') && self.name.contains('(')
             || self.target && has(&['%']) && has(&['*', '?', '['])
             || !self.target && self.name.ends_with([' ', '\t']);
-        // Make takes an argument with an = for a variable, so that only its first target, which has no %, can be
-        // asked for.
+        // Make takes an argument with an = for a variable, so that only its first target, which has
+        // no %, can be asked for.
         let cannot_be_asked_for = self.target && has(&['=']) && has(&['%']);
         !refused && !cannot_be_asked_for
     }
@@ -85,9 +98,11 @@ impl Case {
     /// As the README has it.
     fn is_readable_by_ninja(&self) -> bool {
         let Case { name, target } = self;
-        let unknown = name.contains(['"', '&', '\'', '*', ';', '<', '>', '?', '[', '^', '`', '|', '\t'])
+        let unknown = name
+            .contains(['"', '&', '\'', '*', ';', '<', '>', '?', '[', '^', '`', '|', '\t'])
             || *target && name.contains(['%', '=']);
-        let backslashes = ["\\#", "\\:", "\\$", "\\="].iter().any(|pair| name.contains(pair)) || name.ends_with('\\');
+        let backslashes = ["\\#", "\\:", "\\$", "\\="].iter().any(|pair| name.contains(pair))
+            || name.ends_with('\\');
         !unknown && !backslashes && (*target || !name.ends_with(':'))
     }
 
@@ -108,7 +123,8 @@ impl Case {
         }
         // Outputs are relative to the configuration.
         let depth = self.configuration().matches('/').count();
-        let output = serde_json::to_string(&format!("{}{}", "../".repeat(depth), self.output())).unwrap();
+        let output =
+            serde_json::to_string(&format!("{}{}", "../".repeat(depth), self.output())).unwrap();
         let text = format!("[[table]]\noutput = {output}\nformat = 'exr'\nsize = 1\n");
         fs::write(folder.path().join(self.configuration()), text).unwrap();
         folder
@@ -118,7 +134,11 @@ impl Case {
     fn command(&self, folder: &Path, program: &str) -> Command {
         let mut command = Command::new(program);
         let bake = format!("{} bake --backend cpu --threads 1 -q", env!("CARGO_BIN_EXE_splitsum"));
-        command.current_dir(folder).env("BAKE", bake).env("CONF", self.configuration()).env("MT", self.output());
+        command
+            .current_dir(folder)
+            .env("BAKE", bake)
+            .env("CONF", self.configuration())
+            .env("MT", self.output());
         command
     }
 
@@ -130,7 +150,10 @@ impl Case {
         }
         let place = if self.target { "output" } else { "configuration" };
         let rule = fs::read_to_string(folder.join("deps")).unwrap_or_default();
-        Err(format!("{place} {:?}, {when}: {noted} runs for {runs}: {rule:?}, {output:?}", self.name))
+        Err(format!(
+            "{place} {:?}, {when}: {noted} runs for {runs}: {rule:?}, {output:?}",
+            self.name
+        ))
     }
 }
 
@@ -143,7 +166,8 @@ fn set_age(path: &Path, seconds: u64) {
         .unwrap();
 }
 
-/// The target is named as a path from where make runs, as a build would do; -MT keeps `../` out of it.
+/// The target is named as a path from where make runs, as a build would do; -MT keeps `../` out of
+/// it.
 const RECIPE: &str = "printf 1 >>runs; $$BAKE --config=\"$$CONF\" -MF deps --mt=\"$$MT\"";
 
 fn make_reads(case: &Case) -> Result<(), String> {
@@ -174,8 +198,16 @@ fn make_reads_several() -> Result<(), Failed> {
     fs::write(at("luts.toml"), outputs.iter().map(table).collect::<String>())?;
     fs::write(at("rules"), "%:\n\t@printf 1 >>runs\n")?;
     let mut bake = Command::new(env!("CARGO_BIN_EXE_splitsum"));
-    let bake =
-        bake.current_dir(&folder).args(["bake", "--backend", "cpu", "-q", "--config", "luts.toml", "-MF", "deps"]);
+    let bake = bake.current_dir(&folder).args([
+        "bake",
+        "--backend",
+        "cpu",
+        "-q",
+        "--config",
+        "luts.toml",
+        "-MF",
+        "deps",
+    ]);
     assert!(bake.status()?.success());
     for (age, runs) in [(200, 0), (50, 1)] {
         set_age(&at("luts.toml"), age);
@@ -199,14 +231,21 @@ fn ninja_reads(case: &Case) -> Result<(), String> {
     let path = folder.path();
     let output = case.output().replace('$', "$$");
     let output = if output.starts_with(' ') { format!("${output}") } else { output };
-    let rules = format!("t = {output}\nrule bake\n  depfile = deps\n  command = {RECIPE}\nbuild $t: bake\n");
+    let rules = format!(
+        "t = {output}\nrule bake\n  depfile = deps\n  command = {RECIPE}\nbuild $t: bake\n"
+    );
     fs::write(path.join("build.ninja"), rules).unwrap();
     let ninja = || case.command(path, "ninja").output().unwrap();
     set_age(&path.join(case.configuration()), 200);
     case.expect("new", 1, path, &ninja())?;
     case.expect("built once", 1, path, &ninja())?;
     let later = SystemTime::now() + Duration::from_secs(5);
-    File::options().write(true).open(path.join(case.configuration())).unwrap().set_modified(later).unwrap();
+    File::options()
+        .write(true)
+        .open(path.join(case.configuration()))
+        .unwrap()
+        .set_modified(later)
+        .unwrap();
     case.expect("changed", 2, path, &ninja())
 }
 

@@ -1,6 +1,6 @@
 //! Binary16: every half, every boundary between two halves.
 
-use splitsum::half::{LARGEST, round, value};
+use splitsum::numeric::half::{LARGEST, round, value};
 
 /// The halves from 0 up to the largest finite one.
 fn halves() -> impl Iterator<Item = u16> {
@@ -14,7 +14,10 @@ fn every_half_rounds_to_itself() {
         assert_eq!(round(-value(bits)), bits | 0x8000);
     }
     assert_eq!(value(0x7bff), LARGEST);
-    assert_eq!((value(0x3c00), value(0x0001), value(0x0400)), (1.0, 2f64.powi(-24), 2f64.powi(-14)));
+    assert_eq!(
+        (value(0x3c00), value(0x0001), value(0x0400)),
+        (1.0, 2f64.powi(-24), 2f64.powi(-14))
+    );
 }
 
 #[test]
@@ -40,7 +43,8 @@ fn the_ends_overflow_and_vanish_as_ieee_754_says() {
 
 #[test]
 fn double_rounding_is_not_done() {
-    // A known failure of half 2.7.1's from_f64, which drops 32 bits first: it must be nearest all the same.
+    // A known failure of half 2.7.1's from_f64, which drops 32 bits first: it must be nearest all
+    // the same.
     let v = 0.03388977178683594;
     let bits = round(v);
     let distance = |bits: u16| (value(bits) - v).abs();

@@ -1,4 +1,5 @@
-//! Files that are written: what they may not be written over, what is left beside them, and whose they are.
+//! Files that are written: what they may not be written over, what is left beside them, and whose
+//! they are.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 #[path = "common/program.rs"]
@@ -17,7 +18,9 @@ const CPU: &str = "bake --backend cpu --size 2";
 fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
     let files = entries.filter(|entry| entry.path().is_file());
-    files.map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())).collect()
+    files
+        .map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap()))
+        .collect()
 }
 
 /// The command is refused with this code and these words, and every file is what it was.
@@ -34,7 +37,8 @@ fn refused(folder: &TempDir, arguments: &str, code: i32, said: &[&str]) {
 
 /// A configuration with these outputs, as EXR.
 fn configure(folder: &TempDir, name: &str, outputs: &[&str]) {
-    let table = |output: &&str| format!("[[table]]\noutput = '{output}'\nformat = 'exr'\nsize = 2\n");
+    let table =
+        |output: &&str| format!("[[table]]\noutput = '{output}'\nformat = 'exr'\nsize = 2\n");
     fs::write(folder.path().join(name), outputs.iter().map(table).collect::<String>()).unwrap();
 }
 
@@ -44,7 +48,11 @@ fn a_configuration_is_no_output() {
     fs::create_dir(folder.path().join("in")).unwrap();
     for output in ["luts.toml", "./luts.toml", "in/../luts.toml"] {
         configure(&folder, "luts.toml", &["a.exr", output]);
-        let said = ["luts.toml, table 2: expected an output of its own", "which is the configuration", "rename"];
+        let said = [
+            "luts.toml, table 2: expected an output of its own",
+            "which is the configuration",
+            "rename",
+        ];
         refused(&folder, "bake --backend cpu --config luts.toml", 4, &said);
     }
     configure(&folder, "luts.toml", &["a.exr"]);
@@ -58,9 +66,19 @@ fn a_dependency_file_is_no_table() {
     refused(&folder, &format!("{CPU} -o z.exr -MF z.exr"), 2, &["z.exr, which is the output"]);
     refused(&folder, &format!("{CPU} -o ./z.exr -MF z.exr"), 2, &["z.exr, which is the output"]);
     configure(&folder, "luts.toml", &["a.exr", "luts.toml.d"]);
-    refused(&folder, "bake --backend cpu --config luts.toml -MD", 2, &["which is the output of luts.toml, table 2"]);
+    refused(
+        &folder,
+        "bake --backend cpu --config luts.toml -MD",
+        2,
+        &["which is the output of luts.toml, table 2"],
+    );
     // The folder of the default output does not exist yet.
-    refused(&folder, "bake --backend cpu --size 2 -MF out/dfg.exr", 2, &["out/dfg.exr, which is the output"]);
+    refused(
+        &folder,
+        "bake --backend cpu --size 2 -MF out/dfg.exr",
+        2,
+        &["out/dfg.exr, which is the output"],
+    );
 }
 
 #[test]
@@ -70,7 +88,12 @@ fn two_outputs_are_two_files() {
     let absolute = folder.path().join("a.exr");
     for second in ["a.exr", "./a.exr", "in/../a.exr", ".//a.exr", absolute.to_str().unwrap()] {
         configure(&folder, "luts.toml", &["a.exr", second]);
-        refused(&folder, "bake --backend cpu --config luts.toml", 4, &["table 2", "the output of luts.toml, table 1"]);
+        refused(
+            &folder,
+            "bake --backend cpu --config luts.toml",
+            4,
+            &["table 2", "the output of luts.toml, table 1"],
+        );
     }
     configure(&folder, "luts.toml", &["a.exr", "in/a.exr", "b.exr"]);
     ok(&folder, "bake --backend cpu --config luts.toml");
@@ -84,16 +107,31 @@ fn links_are_what_they_lead_to() {
     let at = |name: &str| folder.path().join(name);
     configure(&folder, "luts.toml", &["link.exr"]);
     symlink("luts.toml", at("link.exr")).unwrap();
-    refused(&folder, "bake --backend cpu --config luts.toml", 4, &["link.exr, which is the configuration"]);
+    refused(
+        &folder,
+        "bake --backend cpu --config luts.toml",
+        4,
+        &["link.exr, which is the configuration"],
+    );
     fs::remove_file(at("link.exr")).unwrap();
     fs::hard_link(at("luts.toml"), at("link.exr")).unwrap();
-    refused(&folder, "bake --backend cpu --config luts.toml", 4, &["link.exr, which is the configuration"]);
+    refused(
+        &folder,
+        "bake --backend cpu --config luts.toml",
+        4,
+        &["link.exr, which is the configuration"],
+    );
     // Links to what is not there yet, and through a folder.
     symlink("new.exr", at("dangling.exr")).unwrap();
     symlink(".", at("here")).unwrap();
     for pair in [["dangling.exr", "new.exr"], ["here/new.exr", "new.exr"]] {
         configure(&folder, "other.toml", &pair);
-        refused(&folder, "bake --backend cpu --config other.toml", 4, &["which is the output of other.toml, table 1"]);
+        refused(
+            &folder,
+            "bake --backend cpu --config other.toml",
+            4,
+            &["which is the output of other.toml, table 1"],
+        );
     }
     ok(&folder, &format!("{CPU} -o dangling.exr"));
     assert!(fs::symlink_metadata(at("dangling.exr")).unwrap().is_symlink());
@@ -126,15 +164,24 @@ fn measurements_are_no_chart() {
 #[test]
 fn a_killed_bake_leaves_nothing() {
     use std::os::unix::process::ExitStatusExt;
-    // A file system in memory can make files without a name; the limit's signal kills as kill -9 does, and always in
-    // time.
+    // A file system in memory can make files without a name; the limit's signal kills as kill -9
+    // does, and always in time.
     let folder = tempfile::tempdir_in("/dev/shm").unwrap();
     fs::write(folder.path().join("a.exr"), "the old file").unwrap();
-    let script =
-        format!("ulimit -c 0 -f 1; exec {} bake --backend cpu --size 64 -o a.exr", env!("CARGO_BIN_EXE_splitsum"));
-    let status = std::process::Command::new("bash").current_dir(&folder).args(["-c", &script]).status().unwrap();
+    let script = format!(
+        "ulimit -c 0 -f 1; exec {} bake --backend cpu --size 64 -o a.exr",
+        env!("CARGO_BIN_EXE_splitsum")
+    );
+    let status = std::process::Command::new("bash")
+        .current_dir(&folder)
+        .args(["-c", &script])
+        .status()
+        .unwrap();
     assert!(status.signal().is_some(), "{status}");
-    assert_eq!(contents(folder.path()), BTreeMap::from([("a.exr".into(), b"the old file".to_vec())]));
+    assert_eq!(
+        contents(folder.path()),
+        BTreeMap::from([("a.exr".into(), b"the old file".to_vec())])
+    );
 }
 
 #[test]
@@ -146,14 +193,23 @@ fn what_killed_bakes_have_left_is_removed() {
         file
     };
     fs::create_dir(folder.path().join(".splitsum-folder.tmp")).unwrap();
-    drop((file(".splitsum-oldone.tmp", 120), file(".splitsum-recent.tmp", 5), file(".splitsum-notes.txt", 120)));
+    drop((
+        file(".splitsum-oldone.tmp", 120),
+        file(".splitsum-recent.tmp", 5),
+        file(".splitsum-notes.txt", 120),
+    ));
     // Ours have six letters.
     drop(file(".splitsum-my-notes.tmp", 120));
     let written = file(".splitsum-writes.tmp", 120);
     written.lock().unwrap();
     ok(&folder, &format!("{CPU} -o a.exr"));
-    let kept =
-        [".splitsum-my-notes.tmp", ".splitsum-notes.txt", ".splitsum-recent.tmp", ".splitsum-writes.tmp", "a.exr"];
+    let kept = [
+        ".splitsum-my-notes.tmp",
+        ".splitsum-notes.txt",
+        ".splitsum-recent.tmp",
+        ".splitsum-writes.tmp",
+        "a.exr",
+    ];
     assert_eq!(contents(folder.path()).into_keys().collect::<Vec<_>>(), kept);
     assert!(folder.path().join(".splitsum-folder.tmp").exists());
 }
@@ -195,12 +251,19 @@ fn a_file_that_is_not_ours_to_write_is_refused() {
         ("a.exr", "cannot write a.exr: Permission denied"),
         ("locked/b.exr", "cannot write to the folder of locked/b.exr"),
     ] {
-        let mut arguments = vec!["./program", "bake", "--backend", "cpu", "--size", "2", "-o", name];
+        let mut arguments =
+            vec!["./program", "bake", "--backend", "cpu", "--size", "2", "-o", name];
         if root {
-            arguments.splice(0..0, ["setpriv", "--reuid", "65534", "--regid", "65534", "--clear-groups"]);
+            arguments.splice(
+                0..0,
+                ["setpriv", "--reuid", "65534", "--regid", "65534", "--clear-groups"],
+            );
         }
-        let output =
-            std::process::Command::new(arguments[0]).args(&arguments[1..]).current_dir(&folder).output().unwrap();
+        let output = std::process::Command::new(arguments[0])
+            .args(&arguments[1..])
+            .current_dir(&folder)
+            .output()
+            .unwrap();
         assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
         assert!(stderr(&output).contains(words), "{}", stderr(&output));
     }
@@ -215,14 +278,22 @@ fn closed_standard_output_is_an_error_before_any_work() {
     let program = env!("CARGO_BIN_EXE_splitsum");
     let code = |arguments: &str| {
         let script = format!("exec {program} {arguments}");
-        let output = std::process::Command::new("bash").current_dir(&folder).args(["-c", &script]).output().unwrap();
+        let output = std::process::Command::new("bash")
+            .current_dir(&folder)
+            .args(["-c", &script])
+            .output()
+            .unwrap();
         (output.status.code(), stderr(&output).contains("standard output: it is closed"))
     };
-    for arguments in [format!("{CPU} -o -"), format!("{CPU} -o a.exr --json"), "furnace --size 2 --json".into()] {
+    for arguments in
+        [format!("{CPU} -o -"), format!("{CPU} -o a.exr --json"), "furnace --size 2 --json".into()]
+    {
         assert_eq!(code(&format!("{arguments} >&-")), (Some(3), true), "{arguments}");
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 0, "{arguments} wrote a file");
     }
-    for arguments in [format!("{CPU} -q -o - >/dev/null"), format!("{CPU} -q -o b.exr --json >/dev/null")] {
+    for arguments in
+        [format!("{CPU} -q -o - >/dev/null"), format!("{CPU} -q -o b.exr --json >/dev/null")]
+    {
         assert_eq!(code(&arguments), (Some(0), false), "{arguments}");
     }
 }
@@ -251,16 +322,24 @@ fn messages_stay_short() {
         }
     };
     let long = "é".repeat(400_000);
-    for line in [format!("output = '{long}' x"), format!("rougness = '{long}'"), format!("model = '{long}'")] {
+    for line in [
+        format!("output = '{long}' x"),
+        format!("rougness = '{long}'"),
+        format!("model = '{long}'"),
+    ] {
         fs::write(folder.path().join("long.toml"), format!("[[table]]\n{line}\n")).unwrap();
         short(&run(&folder, "bake --config long.toml"), 4, &["long.toml", "more characters"]);
     }
-    fs::write(folder.path().join("long.json"), format!("{{\"tool\":\"x\",\"machine\":\"{long}\"}}")).unwrap();
+    fs::write(
+        folder.path().join("long.json"),
+        format!("{{\"tool\":\"x\",\"machine\":\"{long}\"}}"),
+    )
+    .unwrap();
     short(&run(&folder, "chart speed --from long.json"), 4, &["more characters", "measure anew"]);
     // What a command line can hold.
     let long = "é".repeat(50_000);
     let with = |arguments: &str| splitsum(folder.path(), arguments).arg(&long).output().unwrap();
-    short(&with("bake --model"), 4, &["name one of these"]);
+    short(&with("bake --model"), 2, &["more characters", "possible values: ggx"]);
     short(&with("bake --size 2 --frobnicate"), 2, &["--frobnicate"]);
     short(&with("bake --tolerance"), 2, &["more characters", "--tolerance"]);
     short(&with("bake --rule h56 --tolerance 1e-3 --config"), 2, &["cannot be used with"]);
@@ -280,7 +359,8 @@ fn files_are_compared_in_folders_that_are_yet_to_be_made() {
 fn a_file_that_standard_output_goes_to_is_no_dependency_file() {
     let folder = tempdir().unwrap();
     let out = File::create(folder.path().join("z.exr")).unwrap();
-    let output = splitsum(folder.path(), &format!("{CPU} -o - -MF z.exr")).stdout(out).output().unwrap();
+    let output =
+        splitsum(folder.path(), &format!("{CPU} -o - -MF z.exr")).stdout(out).output().unwrap();
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     assert!(stderr(&output).contains("a file of its own"), "{}", stderr(&output));
 }

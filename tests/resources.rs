@@ -1,4 +1,5 @@
-//! Too little memory and refused threads: a clear error with its own exit code, and the old file stays.
+//! Too little memory and refused threads: a clear error with its own exit code, and the old file
+//! stays.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;
@@ -24,7 +25,10 @@ fn main() {
     let name = "refused threads are no fault of the program";
     trials.push(match tools && root() {
         true => Trial::test(name, refused_threads),
-        false => missing(name.into(), "the test is not run by root, or there is no setpriv or no prlimit".into()),
+        false => missing(
+            name.into(),
+            "the test is not run by root, or there is no setpriv or no prlimit".into(),
+        ),
     });
     libtest_mimic::run(&Arguments::from_args(), trials).exit();
 }
@@ -56,7 +60,8 @@ fn refused_or_done() -> Result<(), Failed> {
             Ok(output.status.code())
         };
         // From where the program starts to where it has plenty.
-        let codes = (0..20).map(|i| code(20_000 + 45_000 * i)).collect::<Result<Vec<_>, Failed>>()?;
+        let codes =
+            (0..20).map(|i| code(20_000 + 45_000 * i)).collect::<Result<Vec<_>, Failed>>()?;
         let refused = codes.iter().take_while(|code| **code == Some(8)).count();
         let done = codes[refused..].iter().all(|code| *code == Some(0));
         if !done || refused == 0 || refused == codes.len() {
@@ -66,7 +71,8 @@ fn refused_or_done() -> Result<(), Failed> {
     Ok(())
 }
 
-/// 4096 x 4096 halves are 64 MiB. With 256 MiB more, and 32 MiB of the program's own addresses, they are baked.
+/// 4096 x 4096 halves are 64 MiB. With 256 MiB more, and 32 MiB of the program's own addresses,
+/// they are baked.
 fn a_table_and_little_more() -> Result<(), Failed> {
     let folder = tempfile::tempdir()?;
     let limit = format!("ulimit -v {}", (64 + 256 + 32) << 10);
@@ -81,7 +87,9 @@ fn refused_before_work() -> Result<(), Failed> {
     let folder = tempfile::tempdir()?;
     let file = folder.path().join("a.exr");
     fs::write(&file, "the old file")?;
-    for arguments in ["bake --size 16384 -o a.exr", "bake --size 16384 --precision f32 --threads 1 -o a.exr"] {
+    for arguments in
+        ["bake --size 16384 -o a.exr", "bake --size 16384 --precision f32 --threads 1 -o a.exr"]
+    {
         let output = limited(folder.path(), "ulimit -v 900000", arguments)?;
         let text = String::from_utf8_lossy(&output.stderr).into_owned();
         let said = ["memory: expected", "MiB", "left of the address space", "--size"];
@@ -110,7 +118,8 @@ fn refused_threads() -> Result<(), Failed> {
         command.args(NOBODY).args(program).args(arguments.split(' '));
         let output = command.current_dir(folder.path()).output()?;
         let text = String::from_utf8_lossy(&output.stderr).into_owned();
-        let said = expected == 0 || text.contains("threads: expected") && text.contains("allow more of them");
+        let said = expected == 0
+            || text.contains("threads: expected") && text.contains("allow more of them");
         if output.status.code() != Some(expected) || !said {
             return Err(format!("{arguments}: {:?}, {text}", output.status.code()).into());
         }

@@ -1,25 +1,24 @@
-//! The stages of certification hold each other to account: margins, audits, ranges, and what is left undecided.
+//! The stages of certification hold each other to account: margins, audits, ranges, and what is
+//! left undecided.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod common;
 
-use common::ggx;
-use splitsum::axis::Axis;
+use common::{Integrator, ab, certify, certify_by, errors_at, field, ggx};
 use splitsum::backend::cpu::{self, Baker};
+use splitsum::brdf::{Masking, Microfacet, Ndf};
 use splitsum::certify::decision::Task;
 use splitsum::certify::stages::{LARGEST_F32, Stages, rules};
-use splitsum::certify::ziv::{DeviceTable, certify, certify_by};
+use splitsum::certify::ziv::DeviceTable;
 use splitsum::error::ExitCode;
 use splitsum::integrate::ScaleBias;
-use splitsum::integrate::rule::{CHARLIE_LIMIT, REFERENCE, Rule};
-use splitsum::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Grid, Lut};
-use splitsum::model::{Masking, Microfacet, Ndf};
-use splitsum::precision::Precision;
+use splitsum::integrate::rule::{CHARLIE_LIMIT, Rule};
+use splitsum::integrate::rules::REFERENCE;
+use splitsum::lut::{Energy, EnergyChannels, Lut};
+use splitsum::table::axis::Axis;
+use splitsum::table::grid::Grid;
+use splitsum::table::precision::Precision;
 use splitsum::units::F0;
-
-fn ab(lobe: Microfacet) -> Lut {
-    Lut::Dfg(Dfg { lobe, channels: DfgChannels::Ab })
-}
 
 fn grid(columns: usize, rows: usize) -> Grid {
     let axis = |words: &str, size| Axis::new(words.parse().unwrap(), size).unwrap();
@@ -33,11 +32,12 @@ fn task<'a>(lut: &'a Lut, grid: &'a Grid, precision: Precision) -> Task<'a> {
 /// A lobe with three stages on the CPU.
 const BECKMANN: Microfacet = Microfacet { ndf: Ndf::Beckmann, masking: Masking::HeightCorrelated };
 
-/// n·v at which A of the rule, at α = 1/4, lies `distance` above the boundary of rounding that is next above A(0.6).
+/// n·v at which A of the rule, at α = 1/4, lies `distance` above the boundary of rounding that is
+/// next above A(0.6).
 fn beside_a_boundary(rule: &Rule, distance: f64) -> f64 {
-    let integrator = rule.integrator();
+    let integrator = Integrator::new(*rule);
     let a = |mu| integrator.integrate(BECKMANN, mu, 0.25).a;
-    let step = splitsum::half::step(a(0.6));
+    let step = splitsum::numeric::half::step(a(0.6));
     let target = ((a(0.6) / step).floor() + 1.5) * step + distance;
     let (mut low, mut high) = (0.6, 0.65);
     assert!(a(low) < target && target < a(high));
@@ -53,13 +53,13 @@ fn a_stage_decides_nothing_nearer_than_its_error_and_twice_the_next_ones() {
     let lut = ab(BECKMANN);
     let some = Grid::of(vec![0.6], vec![0.25]);
     let rules = rules(&task(&lut, &some, Precision::F16));
-    let value = rules[0].integrator().integrate(BECKMANN, 0.6, 0.25);
-    let [own, last] = [0, rules.len() - 2].map(|i| rules[i].errors_at(lut.integrand(), 0.25, value).a);
+    let value = Integrator::new(rules[0]).integrate(BECKMANN, 0.6, 0.25);
+    let [own, last] = [0, rules.len() - 2].map(|i| errors_at(&rules[i], BECKMANN, 0.25, value).a);
     // The last rule before the reference is not the first, and its margin is seen.
     assert!(rules.len() == 3 && last > 0.0);
     for (distance, decided) in [(own + last, 0), (own + 3.0 * last, 1)] {
         let grid = Grid::of(vec![beside_a_boundary(&rules[0], distance)], vec![0.25]);
-        let certified = certify(&task(&lut, &grid, Precision::F16), None, &|_| ()).unwrap();
+        let certified = certify(&task(&lut, &grid, Precision::F16), None).unwrap();
         assert_eq!(certified.stages[0].decided, Some(decided), "{distance:e} from a boundary");
         assert_eq!(certified.certificate.undecided, 0);
     }
@@ -71,7 +71,7 @@ fn a_rule_that_keeps_less_than_it_promises_is_found_out_by_the_next() {
     let (lut, grid) = (ab(lobe), grid(24, 24));
     let task = task(&lut, &grid, Precision::F16);
     let coarse = Rule::named("h56").unwrap();
-    let through = |first: Rule| certify_by(&task, &Stages::by(&task, &[first, REFERENCE]), None, &|_| ());
+    let through = |first: Rule| certify_by(&task, &Stages::by(&task, &[first, REFERENCE]), None);
     // h56 errs by up to 1e-3; it says so, or not.
     assert!(through(coarse).is_ok());
     let error = through(coarse.promising(1e-6)).unwrap_err();
@@ -84,14 +84,14 @@ fn a_device_with_one_value_below_every_albedo_is_found_out() {
     // 64 texels in turn: all but one of them are in no sample.
     let lobe = Microfacet { ndf: Ndf::Beckmann, masking: Masking::Separable };
     let (lut, grid, rule) = (ab(lobe), grid(16, 16), Rule::named("h640").unwrap());
-    let points = cpu::bake(lobe, &grid, &rule, &|_| ());
+    let points = cpu::bake(lobe, &grid, &rule, &|_| ()).scale_bias();
     for texel in 64..128 {
         for channel in 0..2 {
             let mut points = points.clone();
             let value = &mut points[texel];
             *if channel == 0 { &mut value.a } else { &mut value.b } = -1e-5;
-            let device = DeviceTable { points: &points, rule: &rule, name: "a device" };
-            let error = certify(&task(&lut, &grid, Precision::F16), Some(device), &|_| ()).unwrap_err();
+            let device = DeviceTable { integrals: &field(&points), rule: &rule, name: "a device" };
+            let error = certify(&task(&lut, &grid, Precision::F16), Some(device)).unwrap_err();
             assert!(error.to_string().contains("no albedo can be"), "texel {texel}: {error}");
         }
     }
@@ -102,21 +102,27 @@ fn as_many_f32_values_as_the_limit_says_are_rounded_correctly() {
     let lobe = ggx(Masking::HeightCorrelated);
     let lut = ab(lobe);
     let grid = grid(64, LARGEST_F32 / 128);
-    let certified = certify(&task(&lut, &grid, Precision::F32), None, &|_| ()).unwrap();
+    let certified = certify(&task(&lut, &grid, Precision::F32), None).unwrap();
     assert_eq!((certified.values.len(), certified.certificate.undecided), (LARGEST_F32, 0));
-    let truth = cpu::bake(lobe, &grid, &REFERENCE, &|_| ());
-    let rounded = truth.iter().flat_map(|value| [value.a, value.b]).map(|value| f64::from(value as f32));
+    let truth = cpu::bake(lobe, &grid, &REFERENCE, &|_| ()).scale_bias();
+    let rounded =
+        truth.iter().flat_map(|value| [value.a, value.b]).map(|value| f64::from(value as f32));
     assert!(certified.values.iter().copied().eq(rounded));
 }
 
 #[test]
-fn a_surrogate_ends_where_its_domain_does() {
+fn an_interpolant_ends_where_its_domain_does() {
     let lobe = ggx(Masking::HeightCorrelated);
-    let [surrogate, source] = ["s2304", "l4608"].map(|name| Baker::new(lobe, &Rule::named(name).unwrap()));
+    let [interpolant, source] =
+        ["s2304", "l4608"].map(|name| Baker::new(lobe, &Rule::named(name).unwrap()));
     let bits = |value: &ScaleBias| [value.a.to_bits(), value.b.to_bits()];
     let same = |roughness: f64| {
-        let points: Vec<_> = (0..=20).map(|i| (f64::from(i) / 20.0, roughness * roughness)).collect();
-        let (one, other) = (surrogate.bake_points(&points), source.bake_points(&points));
+        let points: Vec<_> =
+            (0..=20).map(|i| (f64::from(i) / 20.0, roughness * roughness)).collect();
+        let (one, other) = (
+            interpolant.bake_points(&points).scale_bias(),
+            source.bake_points(&points).scale_bias(),
+        );
         one.iter().zip(&other).filter(|(a, b)| bits(a) == bits(b)).count()
     };
     // It is fitted from a roughness of 1/1024 on.
@@ -131,32 +137,34 @@ fn charlies_bias_is_no_better_known_than_its_scale_where_its_ring_is_at_the_hori
     let charlie = Microfacet { ndf: Ndf::Charlie, masking: Masking::Neubelt };
     let value = ScaleBias { a: 0.5, b: 1e-6 };
     for rule in [REFERENCE, Rule::named("h6144").unwrap()] {
-        let below = rule.errors_at(charlie, 0.99 * CHARLIE_LIMIT, value);
+        let below = errors_at(&rule, charlie, 0.99 * CHARLIE_LIMIT, value);
         assert_eq!(below.b, below.a, "{}", rule.name);
         assert_eq!(below.a, rule.bound(charlie));
     }
-    let above = REFERENCE.errors_at(charlie, CHARLIE_LIMIT, value);
+    let above = errors_at(&REFERENCE, charlie, CHARLIE_LIMIT, value);
     assert!(above.b < 1e-16 && above.a < 1e-12);
 }
 
 #[test]
 fn a_certificate_counts_the_errors_of_averages_and_of_channels() {
-    let energy = |lobe, channels| Lut::Energy(Energy::new(lobe, F0::new(0.9999).unwrap(), channels).unwrap());
+    let energy = |lobe, channels| {
+        Lut::Energy(Energy::new(lobe, F0::new(0.9999).unwrap(), channels).unwrap())
+    };
     let smith = ggx(Masking::HeightCorrelated);
     let lut = energy(smith, EnergyChannels::Split);
-    let certified = certify(&task(&lut, &grid(12, 12), Precision::F16), None, &|_| ()).unwrap();
+    let certified = certify(&task(&lut, &grid(12, 12), Precision::F16), None).unwrap();
     // What the nodes of averages may err.
     assert!(certified.certificate.reference_error >= 1e-12);
-    // R of 41 x 41 texels divides by √(1-E_avg): the truth by the reference on other nodes is as near as is promised.
+    // R of 41 x 41 texels divides by √(1-E_avg): the truth by the reference on other nodes is as
+    // near as is promised.
     let axis = |words: &str| Axis::new(words.parse().unwrap(), 41).unwrap();
     let grid = Grid::new(&axis("nov,edges"), &axis("roughness,edges")).unwrap();
     let rough = Task { tolerance: 1e-5, ..task(&lut, &grid, Precision::F32) };
-    let rough = certify(&rough, None, &|_| ()).unwrap();
+    let rough = certify(&rough, None).unwrap();
     let fine = certify_by(
         &Task { precision: Precision::F64, ..task(&lut, &grid, Precision::F64) },
         &Stages::by(&task(&lut, &grid, Precision::F32), &[REFERENCE]),
         None,
-        &|_| (),
     )
     .unwrap();
     let error = |(a, b): (&f64, &f64)| (a - b).abs() / b.abs().max(1.0);

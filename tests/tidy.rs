@@ -1,8 +1,9 @@
 //! The architecture's invariants, as src/lib.rs and the README state them.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
+use splitsum::brdf::{Microfacet, Ndf};
+use splitsum::choice::Choice;
 use splitsum::integrate::rule::Method;
-use splitsum::model::{Microfacet, Ndf};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -29,7 +30,9 @@ fn file(name: &str) -> String {
 /// The modules of the crate in the order in which src/lib.rs declares them.
 fn modules() -> Vec<String> {
     let lib = file("src/lib.rs");
-    lib.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';').map(str::to_owned)).collect()
+    lib.lines()
+        .filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';').map(str::to_owned))
+        .collect()
 }
 
 /// The top-level module that a file of src belongs to; none for lib.rs and main.rs.
@@ -40,7 +43,8 @@ fn module_of(path: &str) -> Option<&str> {
 
 /// The top-level modules that a text names after `crate::`.
 fn uses(text: &str) -> Vec<&str> {
-    let name = |rest: &'_ str| rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
+    let name =
+        |rest: &'_ str| rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
     text.split("crate::").skip(1).map(|rest| &rest[..name(rest)]).collect()
 }
 
@@ -50,12 +54,14 @@ fn a_module_uses_only_modules_above_it() {
     let place = |name: &str| modules.iter().position(|module| module == name);
     assert!(modules.len() > 10);
     for (path, text) in files("src") {
-        let Some(own) = module_of(&path).map(|name| place(name).unwrap_or_else(|| panic!("{path} is in no module")))
+        let Some(own) = module_of(&path)
+            .map(|name| place(name).unwrap_or_else(|| panic!("{path} is in no module")))
         else {
             continue;
         };
         for used in uses(&text) {
-            // What is no module is an item of lib.rs itself, which only the command line stands above.
+            // What is no module is an item of lib.rs itself, which only the command line stands
+            // above.
             let above = place(used).map_or(modules[own] == "cli", |used| used <= own);
             assert!(above, "{path} uses crate::{used}, which does not stand above it");
         }
@@ -66,20 +72,24 @@ fn a_module_uses_only_modules_above_it() {
 fn the_map_in_lib_rs_lists_the_modules_in_order() {
     let lib = file("src/lib.rs");
     let listed = lib.lines().filter_map(|line| line.strip_prefix("//! - ")?.split(':').next());
-    let listed: Vec<_> =
-        listed.map(|name| name.trim_matches(['[', ']', '`']).trim_start_matches("mod@").to_owned()).collect();
+    let listed: Vec<_> = listed
+        .map(|name| name.trim_matches(['[', ']', '`']).trim_start_matches("mod@").to_owned())
+        .collect();
     assert_eq!(listed, modules());
 }
 
 #[test]
 fn models_know_no_tables_backends_no_files_and_encoders_only_tables() {
     let allowed: [(&str, &[&str]); 3] = [
-        ("model", &["model", "special", "lanes"]),
-        ("quadrature", &["quadrature", "lanes"]),
-        ("encode", &["encode", "error", "axis", "units", "half", "precision", "table"]),
+        ("brdf", &["brdf", "choice", "error", "numeric"]),
+        ("numeric", &["numeric"]),
+        ("format", &["format", "choice", "error", "table"]),
     ];
+    let modules = modules();
     for (module, allowed) in allowed {
-        for (path, text) in files("src").iter().filter(|(path, _)| module_of(path) == Some(module)) {
+        assert!(modules.iter().any(|known| known == module), "no module {module}");
+        for (path, text) in files("src").iter().filter(|(path, _)| module_of(path) == Some(module))
+        {
             for used in uses(text) {
                 assert!(allowed.contains(&used), "{path} uses crate::{used}");
             }
@@ -90,10 +100,19 @@ fn models_know_no_tables_backends_no_files_and_encoders_only_tables() {
 #[test]
 fn only_the_command_line_touches_the_disk_or_prints() {
     for (path, text) in files("src").iter().filter(|(path, _)| module_of(path) != Some("cli")) {
-        for word in
-            ["std::fs", "File::", "println!", "eprint", "stdout()", "stderr()", "std::env", "std::process::exit"]
-        {
-            let found = text.lines().any(|line| line.contains(word) && !line.trim_start().starts_with("//"));
+        for word in [
+            "std::fs",
+            "File::",
+            "println!",
+            "eprint",
+            "stdout()",
+            "stderr()",
+            "std::env",
+            "std::process::exit",
+        ] {
+            let found = text
+                .lines()
+                .any(|line| line.contains(word) && !line.trim_start().starts_with("//"));
             let program = path == "src/main.rs" && word == "std::env";
             assert!(!found || program, "{path} has {word}");
         }
@@ -104,7 +123,10 @@ fn only_the_command_line_touches_the_disk_or_prints() {
 fn unsafe_stands_in_the_vulkan_host_alone() {
     for (path, text) in files("src") {
         let host = path.starts_with("src/backend/vulkan");
-        assert!(host || !text.contains("unsafe {") && !text.contains("unsafe_code"), "{path} has unsafe code");
+        assert!(
+            host || !text.contains("unsafe {") && !text.contains("unsafe_code"),
+            "{path} has unsafe code"
+        );
         // Each block says why it may.
         let lines: Vec<_> = text.lines().collect();
         for (i, line) in lines.iter().enumerate().filter(|(_, line)| line.contains("unsafe {")) {
@@ -118,7 +140,10 @@ fn unsafe_stands_in_the_vulkan_host_alone() {
 fn functions(text: &str) -> Vec<&str> {
     let name = |line: &'_ str| line.find(|c: char| !c.is_alphanumeric() && c != '_');
     let definitions = text.lines().map(|line| line.trim_start().trim_start_matches("pub "));
-    definitions.filter_map(|line| line.strip_prefix("fn ")).filter_map(|rest| Some(&rest[..name(rest)?])).collect()
+    definitions
+        .filter_map(|line| line.strip_prefix("fn "))
+        .filter_map(|rest| Some(&rest[..name(rest)?]))
+        .collect()
 }
 
 #[test]
@@ -144,10 +169,25 @@ fn every_wgsl_function_has_a_rust_twin_and_a_test() {
 #[test]
 fn every_shader_is_for_the_poorest_driver() {
     // What a study of drivers is about may ask for what they do badly.
-    for (path, text) in files("shaders").into_iter().filter(|(path, _)| path != "shaders/textbook.wgsl") {
-        for word in ["enable ", "f16", "f64", "subgroup", "workgroup>", "sin(", "cos(", "pow(", "exp(", "log(", "fma("]
-        {
-            let found = text.lines().any(|line| line.contains(word) && !line.trim_start().starts_with("//"));
+    for (path, text) in
+        files("shaders").into_iter().filter(|(path, _)| path != "shaders/textbook.wgsl")
+    {
+        for word in [
+            "enable ",
+            "f16",
+            "f64",
+            "subgroup",
+            "workgroup>",
+            "sin(",
+            "cos(",
+            "pow(",
+            "exp(",
+            "log(",
+            "fma(",
+        ] {
+            let found = text
+                .lines()
+                .any(|line| line.contains(word) && !line.trim_start().starts_with("//"));
             assert!(!found, "{path} has {word}");
         }
     }
@@ -155,7 +195,9 @@ fn every_shader_is_for_the_poorest_driver() {
 
 #[test]
 fn files_begin_with_what_they_are_and_stay_short() {
-    for (path, text) in files("src").into_iter().chain(files("tests")).filter(|(path, _)| path.ends_with(".rs")) {
+    for (path, text) in
+        files("src").into_iter().chain(files("tests")).filter(|(path, _)| path.ends_with(".rs"))
+    {
         assert!(text.starts_with("//! "), "{path} does not begin with what it is");
         assert!(text.lines().count() <= 400, "{path} has grown to {} lines", text.lines().count());
     }
@@ -165,21 +207,40 @@ fn files_begin_with_what_they_are_and_stay_short() {
 }
 
 #[test]
-fn the_readme_has_the_exit_codes_and_the_rules() {
+fn the_readme_has_the_exit_codes() {
     let readme = file("README.md");
     for (code, meaning) in splitsum::error::ExitCode::MEANINGS {
-        assert!(readme.contains(&format!("| {} | {meaning} |", code as u8)), "no exit code {code:?} in the README");
+        let row = format!("| {} | {meaning} |", code as u8);
+        assert!(readme.contains(&row), "no exit code {code:?} in the README");
     }
-    for rule in splitsum::integrate::rule::RULES {
+}
+
+#[test]
+fn the_page_of_accuracy_has_the_rules_and_their_bounds() {
+    let page = file("docs/accuracy.md");
+    for rule in splitsum::integrate::rules::RULES {
         let evaluations = match rule.method {
-            Method::Surrogate(surrogate) => format!("{} integrals", surrogate.len()),
+            Method::Interpolant(interpolant) => format!("{} integrals", interpolant.len()),
             _ => rule.evaluations(1).to_string(),
         };
-        let lobe = |ndf: Ndf| Microfacet { ndf, masking: ndf.default_masking() };
-        let bounded = |lobe| rule.applies_to(lobe) && rule.bound(lobe).is_finite();
-        let bound = |ndf: Ndf| bounded(lobe(ndf)).then(|| format!("{:e}", rule.bound(lobe(ndf))));
-        let bounds = Ndf::ALL.map(|ndf| bound(ndf).unwrap_or("-".into())).join(" | ");
+        let bound = |ndf: Ndf| {
+            let lobe = Microfacet { ndf, masking: ndf.default_masking() };
+            let holds = rule.applies_to(lobe) && rule.bound(lobe).is_finite();
+            if holds { format!("{:e}", rule.bound(lobe)) } else { "-".to_owned() }
+        };
+        let bounds = Ndf::ALL.iter().map(|&ndf| bound(ndf)).collect::<Vec<_>>().join(" | ");
         let row = format!("| `{}` | {evaluations} | {bounds} |", rule.name);
-        assert!(readme.contains(&row), "no row '{row}' in the README");
+        assert!(page.contains(&row), "no row '{row}' in docs/accuracy.md");
+    }
+}
+
+#[test]
+fn lines_have_at_most_a_hundred_columns() {
+    for (path, text) in ["src", "tests", "benches", "shaders"].into_iter().flat_map(files) {
+        let code = path.ends_with(".rs") || path.ends_with(".wgsl");
+        for (i, line) in text.lines().enumerate().filter(|_| code) {
+            let columns = line.chars().count();
+            assert!(columns <= 100, "{path}:{} has {columns} columns", i + 1);
+        }
     }
 }

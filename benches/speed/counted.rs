@@ -1,6 +1,6 @@
 //! Arithmetic that counts itself: the formulas are generic over what they compute with.
 
-use splitsum::lanes::Real;
+use splitsum::numeric::lanes::Real;
 use std::cell::Cell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -8,7 +8,8 @@ thread_local! {
     static OPERATIONS: Cell<u64> = const { Cell::new(0) };
 }
 
-/// An f64 of which every + - × ÷ √ and special function counts as one operation; comparisons and signs are free.
+/// An f64 of which every + - × ÷ √ and special function counts as one operation; comparisons and
+/// signs are free.
 #[derive(Clone, Copy)]
 pub struct Counted(f64);
 

@@ -1,180 +1,333 @@
-//! The CPU: f64, eight texels at a time in its vector registers. Every texel stands on its own, so that neither
-//! threads nor vectors can change a bit of the result.
+//! The CPU: f64, eight texels at a time in its vector registers. Every texel stands on its own, so
+//! that neither threads nor vectors can change a bit of the result.
 
 use super::Progress;
-use crate::integrate::rule::{Integrator, Method, Rule};
-use crate::integrate::surrogate::{Surrogate, SurrogateRule};
-use crate::integrate::{Integrand, ScaleBias};
-use crate::lanes::{Lanes, WIDTH, vectorised};
-use crate::lut::Grid;
+use crate::brdf::fresnel::{Basis, with_basis};
+use crate::brdf::{Diffuse, Microfacet};
+use crate::integrate::double_exponential::{DoubleExponentialNodes, double_exponential};
+use crate::integrate::half_vectors::{HalfVectorNodes, half_vectors};
+use crate::integrate::interpolant::{Interpolant, InterpolantRule};
+use crate::integrate::light_directions::{LightDirectionNodes, light_directions};
+use crate::integrate::rule::{Method, Rule};
+use crate::integrate::{Field, Integrals, Integrand};
+use crate::numeric::lanes::{self, F64x8, Real, Vector, vectorised};
+use crate::table::grid::Grid;
+use crate::units::roughness_of;
 use rayon::prelude::*;
+use std::array::from_fn;
+use std::sync::Arc;
 
 /// Texels that a thread takes at a time: some 0.2 ms of work.
 const CHUNK: usize = 64;
 
-/// A rule made ready for an integrand: its nodes, and of a surrogate the fit.
-#[derive(Clone, Debug)]
+const LANES: usize = F64x8::LANES;
+
+/// A rule made ready for an integrand: its nodes worked out, and of an interpolant the fit.
+#[derive(Clone)]
 pub struct Baker {
     /// The rule.
     pub rule: Rule,
-    integrand: Integrand,
-    integrator: Integrator,
-    fit: Option<Fit>,
+    /// The number of integrals at a point.
+    count: usize,
+    work: Arc<dyn Work>,
 }
 
-/// A surrogate, and how far it reaches; where it does not, its source integrates.
-#[derive(Clone, Debug)]
-struct Fit {
-    rule: SurrogateRule,
-    surrogate: Surrogate,
+impl std::fmt::Debug for Baker {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Baker").field("rule", &self.rule.name).finish_non_exhaustive()
+    }
 }
 
 impl Baker {
-    /// Works out the nodes, and fits a surrogate.
+    /// Works out the nodes, and fits an interpolant.
     pub fn new(integrand: impl Into<Integrand>, rule: &Rule) -> Self {
-        let (integrand, integrator) = (integrand.into(), rule.integrator());
-        let fit = match rule.method {
-            Method::Surrogate(rule) => {
-                let points = rule.points();
-                let values = integrate(integrand, &integrator, points.len(), &|i| points[i], &|_| ());
-                Some(Fit { rule, surrogate: rule.fit(&points, &values) })
+        let integrand = integrand.into();
+        let work: Arc<dyn Work> = match integrand {
+            Integrand::Specular(lobe, fresnel) => {
+                with_basis!(fresnel, basis => specular(lobe, basis, rule))
             }
-            _ => None,
+            Integrand::Diffuse(diffuse) => Arc::new(ClosedForm { diffuse }),
         };
-        Baker { rule: *rule, integrand, integrator, fit }
+        Baker { rule: *rule, count: integrand.count(), work }
     }
 
-    /// (A, B) at every point of the grid, in its order.
-    pub fn bake(&self, grid: &Grid, progress: Progress) -> Vec<ScaleBias> {
-        if self.fit.is_none() {
-            let point = |index| grid.point(index);
-            return integrate(self.integrand, &self.integrator, grid.len(), &point, progress);
+    /// The integrals at every point of the grid, in its order.
+    pub fn bake(&self, grid: &Grid, progress: Progress) -> Field {
+        let mut field = Field::zeros(self.count, grid.len());
+        let (values, width) = (field.values_mut(), grid.mus.len());
+        if self.work.shares_rows() {
+            let rows = values.par_chunks_mut(width * self.count).zip(&grid.alphas);
+            rows.for_each(|(integrals, &alpha)| {
+                self.work.integrate(Points::Row { mus: &grid.mus, alpha }, integrals);
+                progress(width);
+            });
+        } else {
+            let chunks = values.par_chunks_mut(CHUNK * self.count).enumerate();
+            chunks.for_each(|(chunk, integrals)| {
+                let indices = chunk * CHUNK..chunk * CHUNK + integrals.len() / self.count;
+                let points: Vec<(f64, f64)> = indices.map(|index| grid.point(index)).collect();
+                self.work.integrate(Points::List(&points), integrals);
+                progress(points.len());
+            });
         }
-        let mut integrals = vec![ScaleBias::default(); grid.len()];
-        integrals.par_chunks_mut(grid.mus.len()).zip(&grid.alphas).for_each(|(texels, &alpha)| {
-            self.row(alpha, &grid.mus, texels);
-            progress(texels.len());
-        });
-        integrals
+        field
     }
 
-    /// (A, B) at the named points of the grid.
-    pub fn bake_at(&self, grid: &Grid, indices: &[usize]) -> Vec<ScaleBias> {
+    /// The integrals at the named points of the grid.
+    pub fn bake_at(&self, grid: &Grid, indices: &[usize]) -> Field {
         let points: Vec<(f64, f64)> = indices.iter().map(|&index| grid.point(index)).collect();
         self.bake_points(&points)
     }
 
-    /// (A, B) at these (n·v, α).
-    pub fn bake_points(&self, points: &[(f64, f64)]) -> Vec<ScaleBias> {
-        if self.fit.is_none() {
-            return integrate(self.integrand, &self.integrator, points.len(), &|i| points[i], &|_| ());
+    /// The integrals at these (n·v, α).
+    pub fn bake_points(&self, points: &[(f64, f64)]) -> Field {
+        if !self.work.shares_rows() {
+            let mut field = Field::zeros(self.count, points.len());
+            let chunks =
+                field.values_mut().par_chunks_mut(CHUNK * self.count).zip(points.par_chunks(CHUNK));
+            chunks.for_each(|(integrals, points)| {
+                self.work.integrate(Points::List(points), integrals)
+            });
+            return field;
         }
         let rows: Vec<&[(f64, f64)]> = points.chunk_by(|a, b| a.1 == b.1).collect();
         let row = |points: &&[(f64, f64)]| {
-            let mus: Vec<f64> = points.iter().map(|point| point.0).collect();
-            let mut integrals = vec![ScaleBias::default(); mus.len()];
-            self.row(points[0].1, &mus, &mut integrals);
+            let mut integrals = vec![0.0; points.len() * self.count];
+            self.work.integrate(Points::List(points), &mut integrals);
             integrals
         };
-        rows.par_iter().flat_map_iter(row).collect()
+        Field::of(self.count, rows.par_iter().flat_map_iter(row).collect())
     }
+}
 
-    /// (A, B) at these n·v of one α.
-    fn row(&self, alpha: f64, mus: &[f64], texels: &mut [ScaleBias]) {
-        match &self.fit {
-            Some(fit) if fit.rule.covers(alpha) => {
-                vectorised(Row { surrogate: &fit.surrogate, alpha, mus, texels });
-            }
-            _ => in_groups(self.integrand, &self.integrator, |i| (mus[i], alpha), texels),
+/// The integrals at every point of the grid, in its order.
+pub fn bake(
+    integrand: impl Into<Integrand>,
+    grid: &Grid,
+    rule: &Rule,
+    progress: Progress,
+) -> Field {
+    Baker::new(integrand, rule).bake(grid, progress)
+}
+
+/// The integrals at the named points of the grid.
+pub fn bake_at(
+    integrand: impl Into<Integrand>,
+    grid: &Grid,
+    rule: &Rule,
+    indices: &[usize],
+) -> Field {
+    Baker::new(integrand, rule).bake_at(grid, indices)
+}
+
+/// The integrals at these (n·v, α).
+pub fn bake_points(integrand: impl Into<Integrand>, points: &[(f64, f64)], rule: &Rule) -> Field {
+    Baker::new(integrand, rule).bake_points(points)
+}
+
+/// Points to integrate at.
+#[derive(Clone, Copy)]
+enum Points<'a> {
+    /// These n·v of one α.
+    Row { mus: &'a [f64], alpha: f64 },
+    /// These (n·v, α).
+    List(&'a [(f64, f64)]),
+}
+
+impl Points<'_> {
+    #[inline(always)]
+    fn get(self, index: usize) -> (f64, f64) {
+        match self {
+            Points::Row { mus, alpha } => (mus[index], alpha),
+            Points::List(points) => points[index],
         }
     }
 }
 
-/// (A, B) at every point of the grid, in its order.
-pub fn bake(integrand: impl Into<Integrand>, grid: &Grid, rule: &Rule, progress: Progress) -> Vec<ScaleBias> {
-    Baker::new(integrand, rule).bake(grid, progress)
+/// An integrand with a rule: the one place where both are types of their own, so that the loops
+/// over nodes are compiled for them.
+trait Work: Send + Sync {
+    /// Fills in the integrals at as many points; all are of one α where rows share work.
+    fn integrate(&self, points: Points, integrals: &mut [f64]);
+
+    /// Whether points of one α share work.
+    fn shares_rows(&self) -> bool;
 }
 
-/// (A, B) at the named points of the grid.
-pub fn bake_at(integrand: impl Into<Integrand>, grid: &Grid, rule: &Rule, indices: &[usize]) -> Vec<ScaleBias> {
-    Baker::new(integrand, rule).bake_at(grid, indices)
+/// A diffuse lobe's albedo.
+struct ClosedForm {
+    diffuse: Diffuse,
 }
 
-/// (A, B) at these (n·v, α).
-pub fn bake_points(integrand: impl Into<Integrand>, points: &[(f64, f64)], rule: &Rule) -> Vec<ScaleBias> {
-    Baker::new(integrand, rule).bake_points(points)
+impl Work for ClosedForm {
+    fn integrate(&self, points: Points, integrals: &mut [f64]) {
+        for (i, albedo) in integrals.iter_mut().enumerate() {
+            let (mu, alpha) = points.get(i);
+            *albedo = self.diffuse.albedo(mu, roughness_of(alpha));
+        }
+    }
+
+    fn shares_rows(&self) -> bool {
+        false
+    }
 }
 
-/// A row of a grid.
-struct Row<'a> {
-    surrogate: &'a Surrogate,
+/// The nodes of a rule.
+enum Nodes {
+    HalfVectors(HalfVectorNodes),
+    LightDirections(LightDirectionNodes),
+    DoubleExponential(DoubleExponentialNodes),
+}
+
+/// A specular lobe by quadrature.
+struct Quadrature<const N: usize, B> {
+    lobe: Microfacet,
+    basis: B,
+    nodes: Nodes,
+}
+
+/// A specular lobe by interpolation; where the interpolant does not reach, its source integrates.
+struct Interpolated<const N: usize, B> {
+    rule: InterpolantRule,
+    interpolant: Interpolant<N>,
+    source: Quadrature<N, B>,
+}
+
+/// A specular lobe by a rule.
+fn specular<const N: usize, B: Basis<N>>(lobe: Microfacet, basis: B, rule: &Rule) -> Arc<dyn Work> {
+    let by = |nodes| Quadrature::<N, B> { lobe, basis, nodes };
+    match rule.method {
+        Method::HalfVectors(rule) => Arc::new(by(Nodes::HalfVectors(rule.nodes()))),
+        Method::LightDirections(rule) => Arc::new(by(Nodes::LightDirections(rule.nodes()))),
+        Method::DoubleExponential(rule) => Arc::new(by(Nodes::DoubleExponential(rule.nodes()))),
+        // A closed form serves for no specular lobe: whoever asks for it all the same gets the
+        // source of truth.
+        Method::ClosedForm => specular(lobe, basis, &crate::integrate::rules::REFERENCE),
+        Method::Interpolant(rule) => {
+            let source = by(Nodes::LightDirections(rule.source.nodes()));
+            let points = rule.points();
+            let mut integrals = Field::zeros(N, points.len());
+            let chunks =
+                integrals.values_mut().par_chunks_mut(CHUNK * N).zip(points.par_chunks(CHUNK));
+            chunks
+                .for_each(|(integrals, points)| source.integrate(Points::List(points), integrals));
+            Arc::new(Interpolated { rule, interpolant: rule.fit(basis, &integrals), source })
+        }
+    }
+}
+
+impl<const N: usize, B: Basis<N>> Work for Quadrature<N, B> {
+    /// Takes as many points at a time as there are lanes; a group that is not full repeats its last
+    /// point.
+    fn integrate(&self, points: Points, integrals: &mut [f64]) {
+        let last = integrals.len() / N - 1;
+        for (group, integrals) in integrals.chunks_mut(LANES * N).enumerate() {
+            let points: [(f64, f64); LANES] =
+                from_fn(|i| points.get((group * LANES + i).min(last)));
+            debug_assert!(points.iter().all(|&(mu, alpha)| in_domain(mu, alpha)), "{points:?}");
+            // Any α will do in the lanes of mirrors.
+            let alphas = points.map(|(_, alpha)| if alpha == 0.0 { 1.0 } else { alpha });
+            let (mu, alpha) = (F64x8(points.map(|point| point.0)), F64x8(alphas));
+            scatter(&vectorised(Group { work: self, mu, alpha }), integrals);
+            for (integrals, (mu, alpha)) in integrals.chunks_exact_mut(N).zip(points) {
+                if alpha == 0.0 {
+                    integrals.copy_from_slice(&mirror(self.lobe, self.basis, mu));
+                }
+            }
+        }
+    }
+
+    fn shares_rows(&self) -> bool {
+        false
+    }
+}
+
+impl<const N: usize, B: Basis<N>> Work for Interpolated<N, B> {
+    fn integrate(&self, points: Points, integrals: &mut [f64]) {
+        let alpha = points.get(0).1;
+        match points {
+            _ if !self.rule.covers(alpha) => self.source.integrate(points, integrals),
+            Points::Row { mus, alpha } => vectorised(Row { work: self, alpha, mus, integrals }),
+            Points::List(points) => {
+                let mus: Vec<f64> = points.iter().map(|point| point.0).collect();
+                vectorised(Row { work: self, alpha, mus: &mus, integrals });
+            }
+        }
+    }
+
+    fn shares_rows(&self) -> bool {
+        true
+    }
+}
+
+fn in_domain(mu: f64, alpha: f64) -> bool {
+    (0.0..=1.0).contains(&mu) && (0.0..=1.0).contains(&alpha)
+}
+
+/// Writes the integrals of as many points as there are lanes, or fewer, point by point.
+#[inline(always)]
+fn scatter<const N: usize>(lanes: &Integrals<N, F64x8>, integrals: &mut [f64]) {
+    for (i, integrals) in integrals.chunks_exact_mut(N).enumerate() {
+        for (k, integral) in integrals.iter_mut().enumerate() {
+            *integral = lanes.0[k].0[i];
+        }
+    }
+}
+
+/// The limit α → 0 at fixed n·v.
+fn mirror<const N: usize, B: Basis<N>>(lobe: Microfacet, basis: B, mu: f64) -> [f64; N] {
+    basis.of_mirror(mu).map(|weight| lobe.smooth_limit(mu) * weight)
+}
+
+impl<const N: usize, B: Basis<N>> Quadrature<N, B> {
+    #[inline(always)]
+    fn lanes<R: Real>(&self, mu: R, alpha: R) -> Integrals<N, R> {
+        let Quadrature { lobe, basis, nodes } = self;
+        match nodes {
+            Nodes::HalfVectors(nodes) => half_vectors(*lobe, *basis, mu, alpha, nodes),
+            Nodes::LightDirections(nodes) => light_directions(*lobe, *basis, mu, alpha, nodes),
+            Nodes::DoubleExponential(nodes) => double_exponential(*lobe, *basis, mu, alpha, nodes),
+        }
+    }
+}
+
+/// A group of as many points as there are lanes.
+struct Group<'a, const N: usize, B> {
+    work: &'a Quadrature<N, B>,
+    mu: F64x8,
+    alpha: F64x8,
+}
+
+impl<const N: usize, B: Basis<N>> lanes::Work for Group<'_, N, B> {
+    type Output = Integrals<N, F64x8>;
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        self.work.lanes(self.mu, self.alpha)
+    }
+}
+
+/// A row of points of one α.
+struct Row<'a, const N: usize, B> {
+    work: &'a Interpolated<N, B>,
     alpha: f64,
     mus: &'a [f64],
-    texels: &'a mut [ScaleBias],
+    integrals: &'a mut [f64],
 }
 
-impl pulp::NullaryFnOnce for Row<'_> {
+impl<const N: usize, B: Basis<N>> lanes::Work for Row<'_, N, B> {
     type Output = ();
 
     #[inline(always)]
     fn call(self) {
-        let row = self.surrogate.row(self.alpha);
-        for (mus, texels) in self.mus.chunks(2 * WIDTH).zip(self.texels.chunks_mut(2 * WIDTH)) {
-            let lanes = |first: usize| Lanes(std::array::from_fn(|i| mus[(first + i).min(mus.len() - 1)]));
-            let [one, other] = row.at([lanes(0), lanes(WIDTH)]);
-            for (i, texel) in texels.iter_mut().enumerate() {
-                let ScaleBias { a, b } = if i < WIDTH { one } else { other };
-                *texel = ScaleBias { a: a.0[i % WIDTH], b: b.0[i % WIDTH] };
+        let Row { work, alpha, mus, integrals } = self;
+        let row = work.interpolant.row(alpha);
+        for (mus, integrals) in mus.chunks(2 * LANES).zip(integrals.chunks_mut(2 * LANES * N)) {
+            let lanes = |first: usize| F64x8(from_fn(|i| mus[(first + i).min(mus.len() - 1)]));
+            let pair = row.at(work.source.basis, [lanes(0), lanes(LANES)]);
+            for (integrals, lanes) in integrals.chunks_mut(LANES * N).zip(&pair) {
+                scatter(lanes, integrals);
             }
         }
-    }
-}
-
-type Point<'a> = &'a (dyn Fn(usize) -> (f64, f64) + Sync);
-
-fn integrate(
-    integrand: Integrand,
-    integrator: &Integrator,
-    count: usize,
-    point: Point,
-    progress: Progress,
-) -> Vec<ScaleBias> {
-    let mut integrals = vec![ScaleBias::default(); count];
-    integrals.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, texels)| {
-        in_groups(integrand, integrator, |i| point(chunk * CHUNK + i), texels);
-        progress(texels.len());
-    });
-    integrals
-}
-
-/// Integrates at `point(0)` and on, as many lanes at a time as there are; a group that is not full repeats its last
-/// point.
-fn in_groups(
-    integrand: Integrand,
-    integrator: &Integrator,
-    point: impl Fn(usize) -> (f64, f64),
-    texels: &mut [ScaleBias],
-) {
-    let last = texels.len() - 1;
-    for (group, texels) in texels.chunks_mut(WIDTH).enumerate() {
-        let points = std::array::from_fn(|i| point((group * WIDTH + i).min(last)));
-        let values = vectorised(Group { integrator, integrand, points });
-        texels.copy_from_slice(&values[..texels.len()]);
-    }
-}
-
-/// As many points as there are lanes.
-struct Group<'a> {
-    integrator: &'a Integrator,
-    integrand: Integrand,
-    points: [(f64, f64); WIDTH],
-}
-
-impl pulp::NullaryFnOnce for Group<'_> {
-    type Output = [ScaleBias; WIDTH];
-
-    #[inline(always)]
-    fn call(self) -> Self::Output {
-        self.integrator.integrate_lanes(self.integrand, self.points)
     }
 }

@@ -1,12 +1,17 @@
-//! The Vulkan host: the one place with `unsafe`. It needs Vulkan 1.1, one queue with compute, f32 and u32, workgroups of
-//! 64, four storage buffers and 128 bytes of push constants: what every driver has.
-#![allow(unsafe_code, reason = "Vulkan is a C interface; every call's requirements are met in this module")]
+//! The Vulkan host: the one place with `unsafe`. It needs Vulkan 1.1, one queue with compute, f32
+//! and u32, workgroups of 64, four storage buffers and 128 bytes of push constants: what every
+//! driver has.
+#![allow(
+    unsafe_code,
+    reason = "Vulkan is a C interface; every call's requirements are met in this module"
+)]
 
 pub mod bake;
 pub mod buffer;
 pub mod devices;
 pub mod evaluate;
 pub mod gpu;
+pub mod instance;
 pub mod pipeline;
 pub mod render;
 

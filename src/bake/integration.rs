@@ -1,19 +1,21 @@
-//! The integrals of a table that is not certified: by one rule, on the CPU or on a device, checked on a sample.
+//! The integrals of a table that is not certified: by one rule, on the CPU or on a device, checked
+//! on a sample.
 
-use crate::backend::Progress;
 use crate::backend::cpu::Baker;
-use crate::backend::vulkan::bake::{DeviceBake, bake};
-use crate::backend::vulkan::gpu::Gpu;
-use crate::ball::Ball;
+use crate::backend::device::DeviceBake;
+use crate::backend::{Gpu, Progress, bake};
 use crate::certify::deviation::{self, Deviation};
 use crate::error::{Error, Result};
 use crate::integrate::average::{average_error, average_nodes, averages};
-use crate::integrate::rule::{Method, Rule, f32_arithmetic};
-use crate::integrate::{Integrand, ScaleBias};
-use crate::lut::Grid;
+use crate::integrate::errors::f32_arithmetic;
+use crate::integrate::rule::{Method, Rule};
+use crate::integrate::{Field, Integrand, scale};
+use crate::numeric::ball::Ball;
 use crate::report::Seconds;
+use crate::table::grid::Grid;
+use std::time::Instant;
 
-/// How the integrals are computed, and what the checks have found so far.
+/// The rule and the device, and the findings of the checks so far.
 pub(super) struct Integration<'a> {
     pub integrand: Integrand,
     pub baker: Baker,
@@ -23,7 +25,7 @@ pub(super) struct Integration<'a> {
     pub checked: Checked,
 }
 
-/// What the checks have found over all grids.
+/// The findings of the checks over all grids.
 #[derive(Default)]
 pub(super) struct Checked {
     pub cross_check: Deviation,
@@ -33,54 +35,63 @@ pub(super) struct Checked {
 }
 
 impl Integration<'_> {
-    /// What arithmetic adds to the rule's error: f32's on a device; the rules' bounds are rounded up by far more than
-    /// f64 adds.
+    /// The error that arithmetic adds to the rule's: f32's on a device; the rules' bounds are
+    /// rounded up by far more than f64 adds.
     fn arithmetic(&self) -> f64 {
         if self.gpu.is_some() { f32_arithmetic(self.integrand) } else { 0.0 }
     }
 
-    /// A value at an α with what it may be off, `besides` included: of albedos above 1 relative.
-    pub fn within_bound(&self, alpha: f64, value: ScaleBias, besides: f64) -> ScaleBias<Ball> {
-        let mut errors = self.baker.rule.errors_at(self.integrand, alpha, value);
-        let more = (self.arithmetic() + besides) * value.e().max(1.0);
-        errors.add(1.0, ScaleBias { a: more, b: more });
-        value.within(errors)
+    /// Integrals at an α with the bounds of their errors, `besides` included: of albedos above 1
+    /// relative.
+    pub fn within_bound(&self, alpha: f64, integrals: &[f64], besides: f64) -> Vec<Ball> {
+        let errors = self.baker.rule.errors(self.integrand).at(alpha, integrals);
+        let more = (self.arithmetic() + besides) * scale(integrals);
+        integrals
+            .iter()
+            .zip(errors)
+            .map(|(&value, error)| Ball { value, error: error + more })
+            .collect()
     }
 
-    /// The average of each row of a grid.
-    pub fn averages(&mut self, grid: &Grid) -> Result<Vec<ScaleBias<Ball>>> {
+    /// The averages of each row of a grid.
+    pub fn averages(&mut self, grid: &Grid) -> Result<Vec<Vec<Ball>>> {
         let nodes = average_nodes();
         let directions = grid.at_directions(nodes.iter().map(|node| node.0).collect());
         let averages = averages(&nodes, &self.over(&directions, &|_| ())?);
         let error = average_error(self.integrand);
-        let row = |(average, &alpha): (ScaleBias, &f64)| self.within_bound(alpha, average, error);
-        Ok(averages.into_iter().zip(&grid.alphas).map(row).collect())
+        let row = |(average, &alpha): (&[f64], &f64)| self.within_bound(alpha, average, error);
+        Ok(averages.iter().zip(&grid.alphas).map(row).collect())
     }
 
     /// Integrates over a grid, and checks what comes out.
-    pub fn over(&mut self, grid: &Grid, progress: Progress) -> Result<Vec<ScaleBias>> {
-        let bound =
-            grid.alphas.iter().map(|&alpha| self.baker.rule.bound_at(self.integrand, alpha)).fold(0.0, f64::max);
+    pub fn over(&mut self, grid: &Grid, progress: Progress) -> Result<Field> {
+        let bound = grid
+            .alphas
+            .iter()
+            .map(|&alpha| self.baker.rule.bound_at(self.integrand, alpha))
+            .fold(0.0, f64::max);
         let bound = bound + self.arithmetic();
         let Integration { integrand, baker, gpu, checked, .. } = self;
         let rule = &baker.rule;
-        let start = std::time::Instant::now();
+        let start = Instant::now();
         let integrals = match gpu {
             Some(gpu) => {
                 let baked = on_device(gpu, *integrand, grid, rule, progress)?;
-                checked.device_seconds = baked.device_seconds.map(|s| s + checked.device_seconds.unwrap_or(0.0));
+                checked.device_seconds =
+                    baked.device_seconds.map(|s| s + checked.device_seconds.unwrap_or(0.0));
                 baked.integrals
             }
             None => baker.bake(grid, progress),
         };
         checked.seconds.integrate += start.elapsed().as_secs_f64();
-        let start = std::time::Instant::now();
+        let start = Instant::now();
         if gpu.is_some() {
             let found = deviation::cross_check(*integrand, grid, rule, &integrals)?;
-            checked.cross_check = checked.cross_check.with(found);
+            checked.cross_check = std::mem::take(&mut checked.cross_check).merge(found);
         }
-        let found = deviation::measure(*integrand, grid, rule, bound, &integrals, self.measured_texels)?;
-        checked.measured = checked.measured.with(found);
+        let found =
+            deviation::measure(*integrand, grid, rule, bound, &integrals, self.measured_texels)?;
+        checked.measured = std::mem::take(&mut checked.measured).merge(found);
         checked.seconds.check += start.elapsed().as_secs_f64();
         Ok(integrals)
     }
@@ -95,7 +106,9 @@ pub(super) fn on_device(
     progress: Progress,
 ) -> Result<DeviceBake> {
     match (integrand, rule.method) {
-        (Integrand::Specular(lobe), Method::HSpace(nodes)) => bake(gpu, lobe, grid, &nodes, progress),
+        (Integrand::Specular(lobe, fresnel), Method::HalfVectors(nodes)) => {
+            bake(gpu, (lobe, fresnel), grid, &nodes, progress)
+        }
         _ => Err(Error::Internal(format!("rule {} on a device", rule.name))),
     }
 }

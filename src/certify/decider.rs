@@ -1,83 +1,162 @@
-//! A stage at work on texels: what it takes over, and what the rest of them may be off.
+//! A stage at work on texels: the texels that it decides, and the largest error of the others.
 
-use super::decision::Task;
-use crate::ball::Ball;
-use crate::integrate::rule::Rule;
-use crate::integrate::{Integrand, ScaleBias};
+use super::decision::{Averages, Task};
+use crate::brdf::fresnel::{Basis, MOST_WEIGHTS, with_basis};
+use crate::brdf::{Fresnel, Microfacet};
+use crate::integrate::Integrand;
+use crate::integrate::errors::{Errors, RowErrors};
+use crate::numeric::ball::Ball;
 
-/// What earlier stages keep of the error of the last rule before the reference: theirs and its own may point apart,
-/// and a thousandth more, since the share of B is taken of the earlier stage's B.
+/// The multiple of the last rule's error before the reference that earlier stages add to their own:
+/// their values and its own may err in opposite directions, and a thousandth more, since its
+/// relative part is taken of their values.
 pub(super) const MARGIN: f64 = 2.001;
 
-/// What a stage has decided of some texels.
+/// The outcome of a stage for some texels.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Verdict {
-    /// How many.
+    /// The number of decided texels.
     pub decided: usize,
-    /// The most that a value of the others may be off.
+    /// The largest error of a value of the others.
     pub error: f64,
 }
 
 impl Verdict {
     /// Both together.
-    pub fn with(self, other: Verdict) -> Verdict {
+    pub fn merge(self, other: Verdict) -> Verdict {
         Verdict { decided: self.decided + other.decided, error: self.error.max(other.error) }
     }
 }
 
-/// A stage as texels are decided by it.
-pub(super) struct Decider<'a, E> {
+/// A stage that decides texels.
+pub(super) struct Decider<'a> {
     pub task: &'a Task<'a>,
-    pub averages: &'a [ScaleBias<Ball>],
-    /// What the stage's A and B may be off, by its own type: it is asked at every texel.
-    pub errors_at: E,
-    /// [`MARGIN`] times the error of this rule is kept.
-    pub margin: Option<Rule>,
-    /// Whether mirrors are in f64, and err by no more than its arithmetic.
+    pub averages: &'a Averages,
+    /// The bounds of the stage's errors.
+    pub errors: Errors,
+    /// [`MARGIN`] times these errors are added.
+    pub margin: Option<Errors>,
+    /// Whether mirrors are computed in f64, and err by no more than its arithmetic.
     pub exact_mirrors: bool,
     pub rounds_correctly: bool,
 }
 
-impl<E: Fn(f64, ScaleBias) -> ScaleBias + Sync> Decider<'_, E> {
-    /// The integral at (n·v, α) with what it may be off.
-    fn integral(&self, mu: f64, alpha: f64, value: ScaleBias) -> ScaleBias<Ball> {
-        let integrand = self.task.lut.integrand();
-        if let (true, 0.0, Integrand::Specular(lobe)) = (self.exact_mirrors, alpha, integrand) {
-            let mu = Ball::exact(mu);
-            return ScaleBias::mirror(mu, lobe.smooth_limit(mu));
-        }
-        let mut errors = (self.errors_at)(alpha, value);
-        if let Some(margin) = &self.margin {
-            errors.add(MARGIN, margin.errors_at(integrand, alpha, value));
-        }
-        value.within(errors)
+/// The bounds of a row.
+struct Row<'a> {
+    /// The lobe of a row of mirrors whose integrals are known to the last digits.
+    mirror: Option<(Microfacet, Fresnel)>,
+    errors: RowErrors,
+    margin: Option<RowErrors>,
+    averages: &'a [Ball],
+}
+
+impl Decider<'_> {
+    fn row(&self, row: usize) -> Row<'_> {
+        let alpha = self.task.grid.alphas[row];
+        let mirror = match self.task.lut.integrand() {
+            Integrand::Specular(lobe, fresnel) if self.exact_mirrors && alpha == 0.0 => {
+                Some((lobe, fresnel))
+            }
+            Integrand::Specular(..) | Integrand::Diffuse(_) => None,
+        };
+        let margin = self.margin.map(|margin| margin.row(alpha));
+        Row { mirror, errors: self.errors.row(alpha), margin, averages: self.averages.row(row) }
     }
 
     /// Takes over a texel's values if this stage decides them, and the best guess if it does not.
     pub fn texel(
         &self,
         (row, column): (usize, usize),
-        value: ScaleBias,
+        integrals: &[f64],
         values: &mut [f64],
         open: &mut bool,
     ) -> Verdict {
-        let (mu, alpha) = (self.task.grid.mus[column], self.task.grid.alphas[row]);
-        let integral = self.integral(mu, alpha, value);
-        let (same, error) = self.task.store(mu, integral, self.averages[row], values);
-        let decided = self.rounds_correctly && same;
-        *open = !decided;
-        Verdict { decided: usize::from(decided), error: if decided { 0.0 } else { error } }
+        self.texel_of(&self.row(row), column, integrals, values, open)
     }
 
     /// The same for the open texels of a row.
-    pub fn row(&self, row: usize, integrals: &[ScaleBias], values: &mut [f64], open: &mut [bool]) -> Verdict {
-        let texels = values.chunks_exact_mut(values.len() / open.len()).zip(open).zip(integrals).enumerate();
+    pub fn texels_of_row(
+        &self,
+        row: usize,
+        integrals: &[f64],
+        values: &mut [f64],
+        open: &mut [bool],
+    ) -> Verdict {
+        // The loops over a texel's integrals unroll where their number is known.
+        match integrals.len() / open.len() {
+            1 => self.texels_of_row_with::<1>(row, integrals, values, open),
+            2 => self.texels_of_row_with::<2>(row, integrals, values, open),
+            3 => self.texels_of_row_with::<3>(row, integrals, values, open),
+            _ => self.texels_of_row_with::<MOST_WEIGHTS>(row, integrals, values, open),
+        }
+    }
+
+    fn texels_of_row_with<const N: usize>(
+        &self,
+        row: usize,
+        integrals: &[f64],
+        values: &mut [f64],
+        open: &mut [bool],
+    ) -> Verdict {
+        let channels = values.len() / open.len();
+        let row = self.row(row);
+        let (integrals, _) = integrals.as_chunks::<N>();
+        let texels = values.chunks_exact_mut(channels).zip(open).zip(integrals).enumerate();
         let mut verdict = Verdict::default();
-        for (column, ((values, open), &value)) in texels {
+        for (column, ((values, open), integrals)) in texels {
             if *open {
-                verdict = verdict.with(self.texel((row, column), value, values, open));
+                verdict = verdict.merge(self.texel_of(&row, column, integrals, values, open));
             }
         }
         verdict
     }
+
+    #[inline(always)]
+    fn texel_of(
+        &self,
+        row: &Row,
+        column: usize,
+        integrals: &[f64],
+        values: &mut [f64],
+        open: &mut bool,
+    ) -> Verdict {
+        let mu = self.task.grid.mus[column];
+        let balls = balls(row, mu, integrals);
+        let (same, error) = self.task.store(mu, &balls[..integrals.len()], row.averages, values);
+        let decided = self.rounds_correctly && same;
+        *open = !decided;
+        Verdict { decided: usize::from(decided), error: if decided { 0.0 } else { error } }
+    }
+}
+
+/// The integrals of a texel with the bounds of their errors.
+#[inline(always)]
+fn balls(row: &Row, mu: f64, integrals: &[f64]) -> [Ball; MOST_WEIGHTS] {
+    if let Some((lobe, fresnel)) = row.mirror {
+        return with_basis!(fresnel, basis => mirror(lobe, basis, mu));
+    }
+    let errors = row.errors.of(integrals);
+    let margins = match &row.margin {
+        Some(margin) => margin.of(integrals),
+        None => [0.0; MOST_WEIGHTS],
+    };
+    let mut balls = [Ball::default(); MOST_WEIGHTS];
+    for (k, (ball, &value)) in balls.iter_mut().zip(integrals).enumerate() {
+        *ball = Ball { value, error: errors[k] + MARGIN * margins[k] };
+    }
+    balls
+}
+
+/// The integrals of a mirror, exact but for the arithmetic.
+fn mirror<const N: usize, B: Basis<N>>(
+    lobe: Microfacet,
+    basis: B,
+    mu: f64,
+) -> [Ball; MOST_WEIGHTS] {
+    let mu = Ball::exact(mu);
+    let mut balls = [Ball::default(); MOST_WEIGHTS];
+    for (ball, weight) in balls.iter_mut().zip(basis.of_mirror(mu)) {
+        *ball = lobe.smooth_limit(mu) * weight;
+    }
+    balls
 }

@@ -1,80 +1,147 @@
-//! What is asked of a value: which stored value it is, whether that is beyond doubt, and whether two of them agree.
+//! The questions asked of a value: which stored value it is, whether that is beyond doubt, and
+//! whether two stages agree.
 
-use crate::ball::Ball;
-use crate::integrate::ScaleBias;
-use crate::lut::{Grid, Lut};
-use crate::precision::Precision;
+use crate::integrate::Field;
+use crate::lut::Lut;
+use crate::numeric::ball::Ball;
+use crate::table::grid::Grid;
+use crate::table::precision::Precision;
 
-/// The same, but 0 for -0: no albedo is negative, though an estimate of a tiny one may be.
-fn unsigned(value: f64) -> f64 {
-    value + 0.0
-}
-
-/// What is to be certified.
+/// A table to be certified.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
     /// The table.
     pub lut: &'a Lut,
     /// Its points.
     pub grid: &'a Grid,
-    /// How it is stored.
+    /// Its storage.
     pub precision: Precision,
-    /// The largest error of an integral that is stored in f32.
+    /// The largest error of an integral stored in f32; of no account for other storages.
     pub tolerance: f64,
 }
 
 impl Task<'_> {
-    /// The stored `values` of a texel at n·v = `mu`, from its integral and its row's average; whether they are beyond
-    /// doubt: whether whatever the truth may be rounds to the same; and the most that any of them may be off before it
-    /// is rounded: of values above 1 relative.
-    #[inline]
+    /// Fills in the stored `values` of a texel at n·v = `mu`, from its integrals and its row's
+    /// averages. Returns whether they are beyond doubt, which is whether both ends of every ball
+    /// round to the same, and the largest error of any of them before it is rounded: of values
+    /// above 1 relative.
+    #[inline(always)]
     pub(super) fn store(
         &self,
         mu: f64,
-        integral: ScaleBias<Ball>,
-        average: ScaleBias<Ball>,
+        integrals: &[Ball],
+        averages: &[Ball],
         values: &mut [f64],
     ) -> (bool, f64) {
         let (mut decided, mut worst) = (true, 0.0f64);
-        for (stored, channel) in values.iter_mut().zip(self.lut.values(mu, integral, average)) {
-            decided &= self.precision.nearest(channel.low()) == self.precision.nearest(channel.high());
-            // A division is dear, and values above 1 are few.
+        for (stored, channel) in values.iter_mut().zip(self.lut.values(mu, integrals, averages)) {
+            decided &=
+                self.precision.nearest(channel.low()) == self.precision.nearest(channel.high());
+            // A division is costly, and values above 1 are few.
             let size = channel.value.abs();
             worst = worst.max(if size > 1.0 { channel.error / size } else { channel.error });
-            // No channel is negative, though an estimate of what is nearly 0 may be.
-            let value = if channel.value < 0.0 && channel.high() >= 0.0 { 0.0 } else { channel.value };
-            *stored = unsigned(self.precision.stored(value));
+            // No channel is negative, though an estimate of one near 0 may be.
+            let value =
+                if channel.value < 0.0 && channel.high() >= 0.0 { 0.0 } else { channel.value };
+            // Adding 0 makes 0 of -0.
+            *stored = self.precision.stored(value) + 0.0;
         }
         (decided, worst)
     }
 
-    /// How near the nearest of a texel's values is to a boundary of rounding.
-    pub(super) fn distance_to_boundary(&self, mu: f64, integral: ScaleBias, average: ScaleBias<Ball>) -> f64 {
-        let integral = integral.within(ScaleBias::zero());
-        let values = self.lut.values(mu, integral, average).into_iter().take(self.lut.channels().len());
-        values.map(|value| self.precision.distance_to_boundary(value.value)).fold(f64::INFINITY, f64::min)
+    /// The smallest distance of a texel's values from a boundary of rounding.
+    pub(super) fn distance_to_boundary(
+        &self,
+        mu: f64,
+        integrals: &[f64],
+        averages: &[Ball],
+    ) -> f64 {
+        let integrals: Vec<Ball> =
+            integrals.iter().map(|&integral| Ball::exact(integral)).collect();
+        let values =
+            self.lut.values(mu, &integrals, averages).into_iter().take(self.lut.channels().len());
+        values
+            .map(|value| self.precision.distance_to_boundary(value.value))
+            .fold(f64::INFINITY, f64::min)
     }
 }
 
-/// Refuses two values that are farther apart than both may err.
+/// Refuses integrals that are farther apart than the errors of both allow.
 pub(super) fn check_apart(
-    theirs: ScaleBias,
-    ours: ScaleBias,
-    allowed: ScaleBias,
-    errors: ScaleBias,
+    theirs: &[f64],
+    ours: &[f64],
+    their_errors: &[f64],
+    our_errors: &[f64],
 ) -> Result<(), String> {
+    let allowed = || their_errors.iter().zip(our_errors).map(|(theirs, ours)| theirs + ours);
     // Written so that NaN fails.
-    let close = |x: f64, y: f64, allowed: f64| (x - y).abs() <= allowed;
-    if close(theirs.a, ours.a, allowed.a + errors.a) && close(theirs.b, ours.b, allowed.b + errors.b) {
+    let close =
+        theirs.iter().zip(ours).zip(allowed()).all(|((x, y), allowed)| (x - y).abs() <= allowed);
+    if close {
         return Ok(());
     }
+    let listed = |values: &mut dyn Iterator<Item = f64>| {
+        values.take(ours.len()).map(|value| format!("{value:e}")).collect::<Vec<_>>().join(", ")
+    };
     Err(format!(
-        "gives A = {:e} and B = {:e} where they are {:e} and {:e}: farther apart than {:e} and {:e}",
-        theirs.a,
-        theirs.b,
-        ours.a,
-        ours.b,
-        allowed.a + errors.a,
-        allowed.b + errors.b
+        "gives the integrals {} where they are {}: farther apart than {}",
+        listed(&mut theirs.iter().copied()),
+        listed(&mut ours.iter().copied()),
+        listed(&mut allowed())
     ))
+}
+
+/// The averages of the rows of a table with the bounds of their errors; zeros where none are
+/// needed.
+#[derive(Clone, Debug)]
+pub(super) struct Averages {
+    count: usize,
+    balls: Vec<Ball>,
+}
+
+impl Averages {
+    /// Zeros: `count` averages for each of `rows` rows.
+    pub fn zeros(count: usize, rows: usize) -> Self {
+        Averages { count, balls: vec![Ball::default(); count * rows] }
+    }
+
+    /// The averages of a row.
+    pub fn row(&self, row: usize) -> &[Ball] {
+        &self.balls[row * self.count..][..self.count]
+    }
+
+    /// Sets the averages of a row.
+    pub fn set(&mut self, row: usize, averages: impl Iterator<Item = Ball>) {
+        let balls = &mut self.balls[row * self.count..][..self.count];
+        balls.iter_mut().zip(averages).for_each(|(ball, average)| *ball = average);
+    }
+}
+
+/// The integrals of a stage at a few texels, in ascending order of the texels, or at all.
+pub(super) struct Seen {
+    /// The texels; none where they are all of them.
+    pub texels: Option<Vec<usize>>,
+    /// Their integrals.
+    pub integrals: Field,
+}
+
+impl Seen {
+    /// The number of texels.
+    pub fn len(&self) -> usize {
+        self.integrals.len()
+    }
+
+    /// The texel with a place among them.
+    pub fn texel(&self, place: usize) -> usize {
+        self.texels.as_ref().map_or(place, |texels| texels[place])
+    }
+
+    /// The integrals of a texel, if it is among them.
+    pub fn of(&self, texel: usize) -> Option<&[f64]> {
+        let place = match &self.texels {
+            None => Some(texel),
+            Some(texels) => texels.binary_search(&texel).ok(),
+        };
+        place.map(|place| self.integrals.at(place))
+    }
 }

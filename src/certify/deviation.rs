@@ -1,67 +1,80 @@
-//! Checks on a sample: a device's table is compared with the CPU's, and any table with the reference, before it is
-//! used.
+//! Checks on a sample: a device's table is compared with the CPU's, and any table with the
+//! reference, before it is used.
 
 use crate::backend::cpu;
 use crate::error::{Error, Result};
-use crate::integrate::rule::{Rule, f32_arithmetic};
-use crate::integrate::{Integrand, ScaleBias};
-use crate::lut::Grid;
-use serde::Serialize;
+use crate::integrate::errors::f32_arithmetic;
+use crate::integrate::rule::Rule;
+use crate::integrate::{Field, Integrand, scale};
+use crate::table::grid::Grid;
 
-/// Texels for each one that the CPU repeats: a workgroup's worth, so that no workgroup can go missing unnoticed.
+/// Texels for each one that the CPU repeats: a workgroup's worth, so that no workgroup can go
+/// missing unnoticed.
 const RUN: usize = 64;
 
 /// Texels of a table that are measured against the reference, at half a millisecond each.
 pub const MEASURED: usize = 128;
 
-/// The largest differences over a sample of texels: absolute, or of albedos above 1 relative.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+/// The largest differences over a sample of texels: absolute, or relative where an albedo exceeds
+/// 1.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Deviation {
-    /// Of A.
-    pub a: f64,
-    /// Of B.
-    pub b: f64,
-    /// Over so many texels.
+    /// The largest of each integral.
+    pub largest: Vec<f64>,
+    /// The number of texels.
     pub texels: usize,
 }
 
 impl Deviation {
-    fn between(grid: &Grid, sample: &[usize], table: &[ScaleBias], truth: &[ScaleBias]) -> (Self, (f64, f64)) {
-        let mut worst = Deviation { texels: sample.len(), ..Deviation::default() };
+    /// The deviation over a sample, and the (n·v, α) of the largest.
+    fn between(grid: &Grid, sample: &[usize], table: &Field, truth: &Field) -> (Self, (f64, f64)) {
+        let mut worst = Deviation { largest: vec![0.0; truth.count()], texels: sample.len() };
         let mut at = grid.point(0);
-        for (&index, truth) in sample.iter().zip(truth) {
-            let scale = truth.e().max(1.0);
-            let (a, b) = (distance(table[index].a, truth.a) / scale, distance(table[index].b, truth.b) / scale);
-            if a.max(b) > worst.largest() {
+        for (&index, truth) in sample.iter().zip(truth.iter()) {
+            let scale = scale(truth);
+            let differences =
+                table.at(index).iter().zip(truth).map(|(x, y)| distance(*x, *y) / scale);
+            let differences: Vec<f64> = differences.collect();
+            if largest(&differences) > worst.max() {
                 at = grid.point(index);
             }
-            worst = Deviation { a: a.max(worst.a), b: b.max(worst.b), ..worst };
+            worst = worst.merge(Deviation { largest: differences, texels: 0 });
         }
         (worst, at)
     }
 
     /// Both samples together.
-    pub fn with(self, other: Deviation) -> Deviation {
-        Deviation { a: self.a.max(other.a), b: self.b.max(other.b), texels: self.texels + other.texels }
+    pub fn merge(mut self, other: Deviation) -> Deviation {
+        self.largest.resize(self.largest.len().max(other.largest.len()), 0.0);
+        self.largest.iter_mut().zip(other.largest).for_each(|(own, other)| *own = own.max(other));
+        Deviation { texels: self.texels + other.texels, ..self }
     }
 
-    /// The larger of the two.
-    pub fn largest(&self) -> f64 {
-        self.a.max(self.b)
+    /// The largest of all integrals.
+    pub fn max(&self) -> f64 {
+        largest(&self.largest)
     }
 
-    fn within(&self, bound: f64) -> bool {
-        self.a <= bound && self.b <= bound
+    /// The differences of the integrals with these names, in words: `A 1.0e-6, B 2.0e-7`.
+    pub fn in_words(&self, names: &[&str]) -> String {
+        let word = |(name, difference): (&&str, &f64)| format!("{name} {difference:.1e}");
+        names.iter().zip(&self.largest).map(word).collect::<Vec<_>>().join(", ")
     }
 }
 
-/// Compares a device's table with the CPU at one texel of every 64, at the corners, and every texel with the range
-/// of the lobe's albedo: a device that leaves out, zeroes or mixes up anything as large as a workgroup is found out.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
+}
+
+/// Compares a device's table with the CPU at one texel of every 64, at the corners, and every texel
+/// with the range of the lobe's albedo: a device that leaves out, zeroes or mixes up anything as
+/// large as a workgroup is found out.
 pub fn cross_check(
     integrand: impl Into<Integrand>,
     grid: &Grid,
     rule: &Rule,
-    table: &[ScaleBias],
+    table: &Field,
 ) -> Result<Deviation> {
     let integrand = integrand.into();
     check_range(integrand, grid, rule, table)?;
@@ -69,45 +82,59 @@ pub fn cross_check(
     let sample: Vec<usize> = sample(grid).collect();
     let truth = cpu::bake_at(integrand, grid, rule, &sample);
     let (worst, (mu, alpha)) = Deviation::between(grid, &sample, table, &truth);
-    if worst.within(allowed) {
+    if worst.max() <= allowed {
         return Ok(worst);
     }
+    let differences = worst.in_words(&integrand.names());
     Err(Error::CheckFailed(format!(
-        "device and CPU differ by {:e} in A and {:e} in B, {allowed:e} being allowed, worst at n.v = {mu}, \
-         alpha = {alpha}; the table is thrown away; use another device, or --backend cpu",
-        worst.a, worst.b
+        "device and CPU differ by {differences}, where {allowed:e} is allowed, worst at n.v = \
+         {mu}, alpha = {alpha}; \
+         the table is thrown away; use another device, or --backend cpu"
     )))
 }
 
 /// Refuses a device's table with a value that no albedo can have.
-pub(super) fn check_range(integrand: Integrand, grid: &Grid, rule: &Rule, table: &[ScaleBias]) -> Result<()> {
+pub(super) fn check_range(
+    integrand: Integrand,
+    grid: &Grid,
+    rule: &Rule,
+    table: &Field,
+) -> Result<()> {
     let allowed = f32_arithmetic(integrand);
-    let most = if integrand.may_exceed_one() { f64::from(f32::MAX) } else { 1.0 + rule.bound(integrand) + allowed };
+    let most = if integrand.may_exceed_one() {
+        f64::from(f32::MAX)
+    } else {
+        1.0 + rule.bound(integrand) + allowed
+    };
     let range = -allowed..=most;
-    let Some(index) = table.iter().position(|v| !range.contains(&v.a) || !range.contains(&v.b)) else { return Ok(()) };
-    let (mu, alpha) = grid.point(index);
-    let ScaleBias { a, b } = table[index];
+    let Some(index) = table.values().iter().position(|value| !range.contains(value)) else {
+        return Ok(());
+    };
+    let (value, (mu, alpha)) = (table.values()[index], grid.point(index / table.count()));
+    let name = integrand.names()[index % table.count()];
     Err(Error::CheckFailed(format!(
-        "at n.v = {mu}, alpha = {alpha} the device gives A = {a}, B = {b}, which no albedo can be; \
-         the table is thrown away; use another device, or --backend cpu"
+        "at n.v = {mu}, alpha = {alpha} the device gives {name} = {value}, which no albedo can \
+         be; the table is thrown \
+         away; use another device, or --backend cpu"
     )))
 }
 
 /// A texel of every 64, and the corners.
 pub(super) fn sample(grid: &Grid) -> impl Iterator<Item = usize> {
     let texels = grid.len();
-    let runs = (0..texels).step_by(RUN).map(move |first| first + scatter(first) % RUN.min(texels - first));
+    let runs =
+        (0..texels).step_by(RUN).map(move |first| first + scatter(first) % RUN.min(texels - first));
     corners(grid).into_iter().chain(runs)
 }
 
-/// Measures a table by `rule` against the reference, at the corners and at others scattered over it, so many `texels`
-/// in all; an error beyond the `bound` fails.
+/// Measures a table by `rule` against the reference at the corners and at other texels scattered
+/// over it, `texels` in all; an error beyond the `bound` fails.
 pub fn measure(
     integrand: impl Into<Integrand>,
     grid: &Grid,
     rule: &Rule,
     bound: f64,
-    table: &[ScaleBias],
+    table: &Field,
     texels: usize,
 ) -> Result<Deviation> {
     let integrand = integrand.into();
@@ -122,13 +149,14 @@ pub fn measure(
     };
     let truth = cpu::bake_at(integrand, grid, &rule.yardstick(), &sample);
     let (worst, (mu, alpha)) = Deviation::between(grid, &sample, table, &truth);
-    if worst.within(bound) {
+    if worst.max() <= bound {
         return Ok(worst);
     }
+    let errors = worst.in_words(&integrand.names());
     Err(Error::CheckFailed(format!(
-        "the table is wrong by {:e} in A and {:e} in B, {bound:e} being promised, worst at n.v = {mu}, alpha = {alpha}; \
-         please report this request",
-        worst.a, worst.b
+        "the table errs by {errors}, where {bound:e} is promised, worst at n.v = {mu}, alpha = \
+         {alpha}; please report \
+         this request"
     )))
 }
 

@@ -1,22 +1,23 @@
-//! The stages of certification: which rules, each finer than the one before, made ready for a table.
+//! The stages of certification: rules, each finer than the one before, made ready for a table.
 
 use super::decision::Task;
 use crate::backend::cpu::Baker;
-use crate::certificate::Stage;
+use crate::integrate::Integrand;
+use crate::integrate::errors::Errors;
 use crate::integrate::rule::{Method, Rule};
 use crate::integrate::rules::{CLOSED_FORM, D10240, REFERENCE};
-use crate::integrate::{Integrand, ScaleBias};
-use crate::precision::Precision;
+use crate::table::claim::Stage;
+use crate::table::precision::Precision;
 
-/// So many values of a table, at the most, are rounded correctly to f32, whose steps are as fine as the fast stages'
-/// bounds.
+/// The most values of a table that are rounded correctly to f32, whose steps are as fine as the
+/// fast stages' bounds.
 pub const LARGEST_F32: usize = 4096;
 
 /// The stages of the CPU, ready for any part of a table.
 #[derive(Clone, Debug)]
 pub struct Stages {
     pub(super) bakers: Vec<Baker>,
-    /// Whether values are rounded correctly: where steps are as fine as f32's, only if they are few or in closed form.
+    /// Whether values are rounded correctly: of f32 only few values, and those in closed form.
     pub(super) rounds_correctly: bool,
 }
 
@@ -31,7 +32,9 @@ pub fn rules(task: &Task) -> Vec<Rule> {
     // At a roughness where Charlie's rules are as sharp as any lobe's.
     let error = |rule: &Rule| rule.bound_at(integrand, 1.0);
     let mut rules: Vec<Rule> = first.into_iter().collect();
-    for rule in [D10240, REFERENCE, CLOSED_FORM].into_iter().filter(|rule| rule.applies_to(integrand)) {
+    for rule in
+        [D10240, REFERENCE, CLOSED_FORM].into_iter().filter(|rule| rule.applies_to(integrand))
+    {
         if rules.last().is_none_or(|last| error(&rule) < error(last)) {
             rules.push(rule);
         }
@@ -40,12 +43,12 @@ pub fn rules(task: &Task) -> Vec<Rule> {
 }
 
 impl Stages {
-    /// Those that serve a whole table.
+    /// Those of a whole table.
     pub fn of(task: &Task) -> Self {
         Stages::by(task, &rules(task))
     }
 
-    /// By these rules, each finer than the one before.
+    /// The stages of these rules, each finer than the one before.
     pub fn by(task: &Task, rules: &[Rule]) -> Self {
         let integrand = task.lut.integrand();
         let closed = matches!(integrand, Integrand::Diffuse(_));
@@ -56,9 +59,9 @@ impl Stages {
         }
     }
 
-    /// The last rule before the reference. Earlier stages keep twice its error as a margin, of integrals and of
-    /// averages: so whatever they decide it would have decided too, and which texels are left to the reference does
-    /// not depend on them.
+    /// The last rule before the reference. Earlier stages widen the bounds of integrals and of
+    /// averages by twice this rule's error. Whatever they decide, this rule would decide too; hence
+    /// the set of texels that reaches the reference is independent of which stages ran.
     pub(super) fn margin(&self) -> Option<Rule> {
         let last = self.bakers.len().checked_sub(2).filter(|_| self.rounds_correctly);
         last.map(|i| self.bakers[i].rule)
@@ -66,7 +69,7 @@ impl Stages {
 
     /// Whether the stage interpolates: cheap enough to check a device at every texel.
     pub(super) fn interpolates(&self, stage: usize) -> bool {
-        matches!(self.bakers[stage].rule.method, Method::Surrogate(_))
+        matches!(self.bakers[stage].rule.method, Method::Interpolant(_))
     }
 
     /// Whether the stage is the reference.
@@ -75,13 +78,16 @@ impl Stages {
     }
 }
 
-/// What a stage's A and B may be off at (n·v, α) where it gives this value.
-pub(super) type ErrorsAt<'a> = dyn Fn(f64, ScaleBias) -> ScaleBias + Sync + 'a;
-
-/// What a stage did, in numbers for the report.
-pub(super) fn summary(by: String, errors_at: &ErrorsAt, texels: usize, decided: Option<usize>) -> Stage {
-    // At α = 1, above the roughness below which Charlie's bounds are others.
-    let errors = |b: f64| errors_at(1.0, ScaleBias { a: 0.0, b });
+/// The work of a stage in numbers, for the report.
+pub(super) fn summary(by: String, errors: &Errors, texels: usize, decided: Option<usize>) -> Stage {
+    // At α = 1, above the roughness below which Charlie's bounds are wider.
+    let row = errors.row(1.0);
     let decades = [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
-    Stage { by, error_of_a: errors(1.0).a, error_of_b: decades.map(|b| errors(b).b), texels, decided }
+    Stage {
+        by,
+        error: row.of(&[0.0])[0],
+        error_by_decade: decades.map(|b| row.of(&[0.0, b])[1]),
+        texels,
+        decided,
+    }
 }

@@ -1,33 +1,34 @@
-//! What the stages have found, over all bands of a table, and the certificate that says it.
+//! The findings of the stages over all bands of a table, and the certificate that follows from
+//! them.
 
+use super::decision::Task;
 use super::stages::Stages;
-use crate::certificate::{Certificate, Stage};
 use crate::error::{Error, Result};
 use crate::integrate::average::average_error;
-use crate::lut::Lut;
-use crate::precision::Precision;
+use crate::table::claim::{Certificate, Stage};
 
-/// What the stages have found.
+/// The findings of the stages.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tally {
-    /// How many texels there are.
+    /// The number of texels.
     pub texels: usize,
-    /// How many the reference had to decide.
+    /// Texels that the reference had to decide.
     pub by_reference: usize,
-    /// How many are left.
+    /// Texels that are left.
     pub undecided: usize,
-    /// The most that a value may be off before it is rounded, of those that are not known to be rounded correctly; of
-    /// values above 1 relative.
+    /// The largest error, before it is rounded, of a value that is not known to be rounded
+    /// correctly; of values above 1 relative.
     pub error: f64,
-    /// The smallest distance from a boundary of rounding among the values that the reference decided.
+    /// The smallest distance from a boundary of rounding among the values that the reference
+    /// decided.
     pub smallest_distance: Option<f64>,
-    /// What each stage did.
+    /// The work of each stage.
     pub stages: Vec<Stage>,
 }
 
 impl Tally {
-    /// What two bands have found together.
-    pub fn with(mut self, other: Tally) -> Tally {
+    /// The findings of two bands together.
+    pub fn merge(mut self, other: Tally) -> Tally {
         self.texels += other.texels;
         self.by_reference += other.by_reference;
         self.undecided += other.undecided;
@@ -36,7 +37,8 @@ impl Tally {
             (Some(a), Some(b)) => Some(a.min(b)),
             (a, b) => a.or(b),
         };
-        // Every band goes through the same stages in the same order, some no further than the first.
+        // Every band goes through the same stages in the same order, some no further than the
+        // first.
         for (i, stage) in other.stages.into_iter().enumerate() {
             match self.stages.get_mut(i) {
                 Some(own) => {
@@ -49,45 +51,48 @@ impl Tally {
         self
     }
 
-    /// The certificate; the hash is left to whoever knows the order of the file. An error where a channel's formula
-    /// leaves no bound of a value's error.
-    pub fn certificate(&self, lut: &Lut, precision: Precision, stages: &Stages) -> Result<Certificate> {
+    /// The certificate of the table that is stored with the hash `blake3`. An error where a
+    /// channel's formula leaves no bound of a value's error.
+    pub fn certificate(&self, task: &Task, stages: &Stages, blake3: String) -> Result<Certificate> {
         let Tally { texels, by_reference, undecided, error, smallest_distance, .. } = *self;
         if !error.is_finite() {
             return Err(unbounded());
         }
-        let integrand = lut.integrand();
-        let averages = if lut.needs_averages() { average_error(integrand) } else { 0.0 };
-        let reference_error = stages.bakers.last().map_or(0.0, |baker| baker.rule.bound(integrand)).max(averages);
+        let integrand = task.lut.integrand();
+        let averages = if task.lut.needs_averages() { average_error(integrand) } else { 0.0 };
+        let reference_error =
+            stages.bakers.last().map_or(0.0, |baker| baker.rule.bound(integrand)).max(averages);
         let rounded = "every value is the true integral, rounded once to the nearest, ties to even";
         let at_most = rounded_up(error);
         let promise = if !stages.rounds_correctly {
             format!(
-                "before it was rounded, every value was within {at_most} of the true integral (of values above 1 relative)"
+                "before it was rounded, every value was within {at_most} of the true integral (of \
+                 values above 1 relative)"
             )
         } else if undecided == 0 {
             rounded.into()
         } else {
             format!(
-                "{rounded}; but {undecided} texels, with a value as near to a boundary of rounding as {at_most} (of values \
+                "{rounded}; but {undecided} texels, with a value as near to a boundary of \
+                 rounding as {at_most} (of values \
                  above 1 relative), may be the other nearest"
             )
         };
         Ok(Certificate {
             promise,
-            bound: precision.half_step() + error,
+            bound: task.precision.half_step() + error,
             texels,
             decided_before_reference: texels - undecided - by_reference,
             decided_by_reference: by_reference,
             undecided,
             reference_error,
             smallest_distance,
-            blake3: String::new(),
+            blake3,
         })
     }
 }
 
-/// A channel's formula leaves no bound of its error.
+/// The error of a channel whose formula leaves no bound of its error.
 pub fn unbounded() -> Error {
     let got = "a channel that divides by what may be 0 within the integral's error";
     let cure = "give a smaller --tolerance, or an --f0 farther from 1";

@@ -2,15 +2,15 @@
 
 mod names;
 
+use super::device_args::DeviceArgs;
 use super::table_args::{Job, TableArgs};
 use super::{config, depfile, output, progress::Progress, resources, standard_output, usage};
-use crate::backend::vulkan::gpu::GpuOptions;
+use crate::backend::device::GpuOptions;
 use crate::backend::{Backend, BackendChoice};
-use crate::encode::{self, metadata::TOOL};
-use crate::error::{Error, Result};
+use crate::bake::Plan;
+use crate::error::Result;
+use crate::format::metadata::TOOL;
 use crate::report::Report;
-use crate::request::Request;
-use crate::table::Table;
 use serde::Serialize;
 use std::io::Write;
 
@@ -18,59 +18,40 @@ use std::io::Write;
 pub struct BakeArgs {
     #[command(flatten, next_help_heading = "The table")]
     table: TableArgs,
-    /// Bake every [[table]] of this TOML file; its keys are the names of the flags above, its outputs relative to it
-    #[arg(long, value_name = "FILE", help_heading = "The run", conflicts_with_all = TABLE_FLAGS)]
+    /// Bake every [[table]] of this TOML file; its keys are the names of the flags above, its
+    /// outputs relative to it
+    #[arg(long, value_name = "FILE", help_heading = "The run", conflicts_with = "TableArgs")]
     config: Option<String>,
-    /// auto (Vulkan where a device can do it and the work pays for starting it, else the CPU), vulkan or cpu
-    #[arg(long, value_name = "NAME", default_value = "auto", help_heading = "The run")]
-    backend: String,
-    /// Vulkan device, by UUID or a part of its name that no other has [default: discrete, integrated, virtual,
-    /// software]
-    #[arg(long, value_name = "NAME|UUID", help_heading = "The run")]
-    device: Option<String>,
-    /// Run under Vulkan's validation layers; whatever they say is a failure
-    #[arg(long, help_heading = "The run")]
+    #[command(flatten, next_help_heading = "The run")]
+    device: DeviceArgs,
+    /// Run under Vulkan's validation layers; any message of theirs is a failure
+    #[arg(long)]
     validate: bool,
-    /// Texels for each dispatch, instead of measuring what the device does in 40 ms
-    #[arg(long, value_name = "N", hide = true)]
-    tile: Option<usize>,
+    /// Texels for each dispatch, instead of as many as the device does in 40 ms
+    #[arg(long, value_name = "N", hide = true, value_parser = clap::value_parser!(u32).range(1..))]
+    tile: Option<u32>,
     /// CPU threads [default: one for each core]
-    #[arg(long, value_name = "N", help_heading = "The run")]
-    threads: Option<usize>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Print the plan, with sizes and the expected time, and bake nothing
+    #[arg(long, conflicts_with_all = ["json", "md", "mf", "mt"])]
+    dry_run: bool,
     /// Print the report as JSON on standard output
-    #[arg(long, help_heading = "The run")]
+    #[arg(long)]
     json: bool,
     /// Print nothing but errors
-    #[arg(short, long, help_heading = "The run")]
+    #[arg(short, long)]
     quiet: bool,
     /// -MD: write a dependency file in Make's syntax, OUTPUT.d or CONFIG.d
-    #[arg(long, help_heading = "The run")]
+    #[arg(long)]
     md: bool,
     /// -MF FILE: write the dependency file there
-    #[arg(long, value_name = "FILE", help_heading = "The run")]
+    #[arg(long, value_name = "FILE")]
     mf: Option<String>,
     /// -MT NAME: the target that the dependency file names, instead of the outputs
-    #[arg(long, value_name = "NAME", help_heading = "The run")]
+    #[arg(long, value_name = "NAME")]
     mt: Option<String>,
 }
-
-const TABLE_FLAGS: [&str; 15] = [
-    "lut",
-    "model",
-    "masking",
-    "channels",
-    "f0",
-    "ior",
-    "size",
-    "x",
-    "y",
-    "precision",
-    "certify",
-    "tolerance",
-    "rule",
-    "format",
-    "output",
-];
 
 #[derive(Serialize)]
 struct Run {
@@ -101,8 +82,11 @@ pub fn run(arguments: BakeArgs) -> Result<()> {
     let depfile = dependency_file(&arguments, &jobs)?;
     names::check(&arguments, &jobs, depfile.as_deref())?;
     let bytes = resources::of_bakes(&jobs);
-    resources::start(bytes, arguments.threads, resources::FEWER)?;
+    resources::start(bytes, arguments.threads.map(usize::from), resources::FEWER)?;
     let backend = open(&arguments, bytes)?;
+    if arguments.dry_run {
+        return print_plans(&jobs, &backend);
+    }
     // Last, since it makes the folder of the default output.
     for name in jobs.iter().map(|job| &job.output).chain(&depfile) {
         output::check(name)?;
@@ -110,49 +94,63 @@ pub fn run(arguments: BakeArgs) -> Result<()> {
     if arguments.json {
         standard_output::check()?;
     }
-    let tables: Vec<Vec<Baked>> = jobs.iter().map(|job| bake(job, &backend, &arguments)).collect::<Result<_>>()?;
+    let tables: Vec<Vec<Baked>> =
+        jobs.iter().map(|job| bake(job, &backend, &arguments)).collect::<Result<_>>()?;
     if let Some(depfile) = depfile {
         let outputs: Vec<&str> = jobs.iter().map(|job| job.output.as_str()).collect();
         let targets = arguments.mt.as_ref().map_or(outputs, |target| vec![target]);
         output::write(&depfile, depfile::rule(&targets, arguments.config.as_deref()).as_bytes())?;
     }
     if arguments.json {
-        return super::print_json(&Run { tool: TOOL, tables: tables.into_iter().flatten().collect() });
+        return super::print_json(&Run {
+            tool: TOOL,
+            tables: tables.into_iter().flatten().collect(),
+        });
     }
     Ok(())
 }
 
+/// Prints what would be baked, and how.
+fn print_plans(jobs: &[Job], backend: &Backend) -> Result<()> {
+    standard_output::check()?;
+    let plan = |job: &Job| {
+        let plan = Plan::new(&job.request, backend)?;
+        Ok(format!("output    {}\ncommand   {}\n{plan}", job.output, job.request))
+    };
+    super::print(&jobs.iter().map(plan).collect::<Result<Vec<_>>>()?.join("\n\n"))
+}
+
 fn bake(job: &Job, backend: &Backend, arguments: &BakeArgs) -> Result<Vec<Baked>> {
-    let Job { requests, format, output } = job;
-    let texels = requests.iter().map(|request| request.x.size * request.y.size).sum();
-    let progress = Progress::new(output, texels, arguments.quiet);
-    let bake = |request: &Request| crate::bake(request, backend, &|texels| progress.advance(texels));
-    let baked: Vec<crate::Baked> = requests.iter().map(bake).collect::<Result<_>>()?;
+    let Job { request, format, output } = job;
+    let plan = Plan::new(request, backend)?;
+    let progress = Progress::new(output, request.texels(), arguments.quiet);
+    let baked = plan.bake(&|texels| progress.advance(texels))?;
     drop(progress);
-    let (tables, reports): (Vec<Table>, Vec<Report>) = baked.into_iter().map(|b| (b.table, b.report)).unzip();
-    output::write_with(output, &mut |file| encode::write(&tables, *format, file))?;
+    output::write_with(output, &mut |file| format.write(&baked.table, file))?;
     if !arguments.quiet && !arguments.json {
         let name = if output == "-" { "standard output" } else { output };
-        for (request, report) in requests.iter().zip(&reports) {
-            let layer = request.lut.f0().filter(|_| requests.len() > 1).map(|f0| format!(", layer F0 = {f0}"));
-            let ([width, height], layer) = (report.size, layer.unwrap_or_default());
-            let _ = writeln!(std::io::stderr(), "wrote     {name}{layer}: {width} x {height}\n{report}");
+        for report in &baked.reports {
+            let slice =
+                report.slice.as_ref().map_or(String::new(), |slice| format!(", slice {slice}"));
+            let [width, height] = report.size;
+            let _ = writeln!(
+                std::io::stderr(),
+                "wrote     {name}{slice}: {width} x {height}\n{report}"
+            );
         }
     }
-    Ok(reports.into_iter().map(|report| Baked { output: output.clone(), report }).collect())
+    Ok(baked.reports.into_iter().map(|report| Baked { output: output.clone(), report }).collect())
 }
 
 fn open(arguments: &BakeArgs, bytes: u64) -> Result<Backend> {
-    let choice: BackendChoice = arguments.backend.parse()?;
-    let options = GpuOptions { device: arguments.device.clone(), validate: arguments.validate, tile: arguments.tile };
-    if choice == BackendChoice::Cpu && options != GpuOptions::default() {
+    let DeviceArgs { backend, device } = &arguments.device;
+    let tile = arguments.tile.map(|tile| tile as usize);
+    let options = GpuOptions { device: device.clone(), validate: arguments.validate, tile };
+    if *backend == BackendChoice::Cpu && options != GpuOptions::default() {
         let cure = "leave out --device, --validate and --tile, or choose --backend vulkan";
         return Err(usage("--backend cpu", "flags of the CPU", "flags of a device", cure));
     }
-    if options.tile == Some(0) {
-        return Err(Error::bad_input("tile", "at least 1", "0", "give a number of texels"));
-    }
-    resources::open_backend(choice, &options, bytes)
+    resources::open_backend(*backend, &options, bytes)
 }
 
 fn dependency_file(arguments: &BakeArgs, jobs: &[Job]) -> Result<Option<String>> {
@@ -162,9 +160,16 @@ fn dependency_file(arguments: &BakeArgs, jobs: &[Job]) -> Result<Option<String>>
         (None, true) => match (&arguments.config, jobs) {
             (Some(config), _) => Ok(Some(format!("{config}.d"))),
             (None, [job]) if job.output != "-" => Ok(Some(format!("{}.d", job.output))),
-            _ => Err(usage("-MD", "an output that is a file", "-", "name the dependency file with -MF")),
+            _ => Err(usage(
+                "-MD",
+                "an output that is a file",
+                "-",
+                "name the dependency file with -MF",
+            )),
         },
-        (None, false) if arguments.mt.is_some() => Err(usage("-MT", "-MD or -MF beside it", "neither", "add one")),
+        (None, false) if arguments.mt.is_some() => {
+            Err(usage("-MT", "-MD or -MF beside it", "neither", "add one"))
+        }
         (None, false) => Ok(None),
     }
 }

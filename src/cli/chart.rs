@@ -8,12 +8,14 @@ mod table;
 use super::progress::Progress;
 use super::table_args::{DEFAULT_OUTPUT, TableArgs};
 use super::{output, place, resources, usage};
-use crate::backend::vulkan::devices::{DeviceInfo, list_devices};
-use crate::backend::vulkan::gpu::{Gpu, GpuOptions};
-use crate::draw::Drawing;
-use crate::encode::metadata::TOOL;
+use crate::backend::Gpu;
+use crate::backend::device::DeviceInfo;
+use crate::backend::device::GpuOptions;
+use crate::backend::list_devices;
+use crate::compare::draw::Drawing;
+use crate::compare::study::{Device, Machine};
 use crate::error::{Error, Result};
-use crate::study::{Device, Machine};
+use crate::format::metadata::TOOL;
 use clap::Subcommand;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -22,19 +24,21 @@ use std::path::Path;
 
 #[derive(Subcommand)]
 pub enum ChartArgs {
-    /// Draw a table: a panel for each channel, dark at 0, yellow at the channel's largest value, which is printed
+    /// Draw a table: a panel for each channel, dark at 0, yellow at the channel's largest value,
+    /// which is printed
     Table(Box<TableArgs>),
-    /// Measure speed against accuracy, the field's estimators beside ours, on this CPU and on every Vulkan device
+    /// Measure speed against accuracy, the field's estimators beside ours, on this CPU and on every
+    /// Vulkan device
     Speed(speed::SpeedArgs),
-    /// Map where formulas and methods fail: into the corners of angle and roughness, in f64, in f32 and on every
-    /// Vulkan device
+    /// Map where formulas and methods fail: into the corners of angle and roughness, in f64, in f32
+    /// and on every Vulkan device
     Stability(stability::StabilityArgs),
-    /// Climb towards the largest error over its bound, of every rule, lobe and channel, on this CPU and on every
-    /// Vulkan device
+    /// Climb towards the largest error over its bound, of every rule, lobe and channel, on this CPU
+    /// and on every Vulkan device
     Bounds(bounds::BoundsArgs),
 }
 
-/// What every study takes.
+/// The flags of every study.
 #[derive(clap::Args)]
 pub struct StudyArgs {
     /// Fewer points and smaller tables: seconds instead of minutes
@@ -46,8 +50,8 @@ pub struct StudyArgs {
     /// Measure the CPU alone
     #[arg(long)]
     cpu: bool,
-    /// The folder for the charts (SVG and PNG), a page about them (Markdown) and the measurements (JSON; of speed CSV
-    /// too)
+    /// The folder for the charts (SVG and PNG), a page about them (Markdown) and the measurements
+    /// (JSON; of speed CSV too)
     #[arg(short, long, value_name = "FOLDER", default_value = "out")]
     output: String,
     /// Measure nothing, and draw what this JSON file of an earlier run holds
@@ -58,10 +62,10 @@ pub struct StudyArgs {
     quiet: bool,
 }
 
-/// What a study takes on the CPU, about; a device's driver has memory of its own.
+/// The memory of a study on the CPU, about; a device's driver has memory of its own.
 const STUDY_BYTES: u64 = 128 << 20;
 
-/// What is saved beside the charts.
+/// The measurements that are saved beside the charts.
 #[derive(Serialize, Deserialize)]
 struct Saved<T> {
     tool: String,
@@ -90,7 +94,7 @@ impl StudyArgs {
     fn folder(&self, files: &[impl AsRef<str>]) -> Result<String> {
         let folder = self.output.trim_end_matches(std::path::is_separator);
         if Path::new(DEFAULT_OUTPUT).parent() == Some(Path::new(folder)) {
-            let failed = output::failed("create the folder", folder, "choose another with -o");
+            let failed = Error::io("create the folder", folder, "choose another with -o");
             fs::create_dir_all(folder).map_err(failed)?;
         }
         let paths = files.iter().map(|file| format!("{folder}/{}", file.as_ref()));
@@ -103,13 +107,18 @@ impl StudyArgs {
             output::check(&path)?;
             if let Some(other) = written.add(path.as_str(), &path) {
                 let got = format!("{path}, which is {other}");
-                return Err(usage("output", "a file of its own for each chart", &got, "choose another folder with -o"));
+                return Err(usage(
+                    "output",
+                    "a file of its own for each chart",
+                    &got,
+                    "choose another folder with -o",
+                ));
             }
         }
         Ok(folder.into())
     }
 
-    /// What an earlier run saved, or what `measure` measures, saved at `path`.
+    /// Reads what an earlier run saved, or measures by `measure` and saves that at `path`.
     fn saved<T: Serialize + DeserializeOwned>(
         &self,
         path: &str,
@@ -122,19 +131,25 @@ impl StudyArgs {
         let devices = devices(self.device.as_deref(), self.cpu)?;
         let measured = measure(&devices, &Progress::of_work("measuring", self.quiet))?;
         let saved = Saved { tool: TOOL.into(), machine: devices.machine(), measured };
-        let json = serde_json::to_string(&saved).map_err(|error| Error::Internal(error.to_string()))?;
+        let json =
+            serde_json::to_string(&saved).map_err(|error| Error::Internal(error.to_string()))?;
         output::write(path, json.as_bytes())?;
         Ok(saved)
     }
 }
 
-/// The devices to measure: the one that is named; none where there is no driver, or the CPU alone is wanted.
+/// The devices to measure: the one that is named; none where there is no driver, or the CPU alone
+/// is wanted.
 fn devices(device: Option<&str>, cpu: bool) -> Result<Devices> {
     let named = |device: &str| GpuOptions { device: Some(device.into()), ..GpuOptions::default() };
     let infos = match device {
         Some(name) => vec![Gpu::open(&named(name))?.info().clone()],
         None if cpu => Vec::new(),
-        None => list_devices().unwrap_or_default().into_iter().filter(|info| info.unusable.is_none()).collect(),
+        None => list_devices()
+            .unwrap_or_default()
+            .into_iter()
+            .filter(|info| info.unusable.is_none())
+            .collect(),
     };
     let options = infos.iter().map(|info| named(&info.uuid)).collect();
     Ok(Devices { infos, options })
@@ -157,7 +172,8 @@ impl Devices {
     }
 }
 
-/// Writes a drawing as `name`.svg and `name`.png, the latter with twice the pixels, for sharp screens.
+/// Writes a drawing as `name`.svg and `name`.png, the latter with twice the pixels, for sharp
+/// screens.
 fn write_drawing(folder: &str, name: &str, drawing: &Drawing) -> Result<()> {
     output::write(&format!("{folder}/{name}.svg"), drawing.to_svg()?.as_bytes())?;
     output::write_picture(&format!("{folder}/{name}.png"), &drawing.to_picture(2.0)?)
@@ -165,8 +181,17 @@ fn write_drawing(folder: &str, name: &str, drawing: &Drawing) -> Result<()> {
 
 /// Reads what [`StudyArgs::saved`] wrote.
 fn read_study<T: DeserializeOwned>(path: &str) -> Result<T> {
-    let text = fs::read_to_string(path).map_err(output::failed("read", path, "name the .json of an earlier run"))?;
+    let text = fs::read_to_string(path).map_err(Error::io(
+        "read",
+        path,
+        "name the .json of an earlier run",
+    ))?;
     serde_json::from_str(&text).map_err(|error| {
-        Error::bad_input(path, "measurements that this command has saved", error.to_string(), "measure anew")
+        Error::bad_input(
+            path,
+            "measurements that this command has saved",
+            error.to_string(),
+            "measure anew",
+        )
     })
 }

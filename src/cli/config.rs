@@ -1,6 +1,5 @@
 //! Configurations: TOML files with a `[[table]]` for each table.
 
-use super::output;
 use super::table_args::{Job, TableArgs};
 use crate::error::{Error, Result};
 use serde::Deserialize;
@@ -18,18 +17,24 @@ struct Config {
 
 /// The jobs of a configuration; relative outputs are relative to the configuration's folder.
 pub fn read(path: &str) -> Result<Vec<Job>> {
-    let io = output::failed("read", path, "name a TOML file that can be read");
+    let io = Error::io("read", path, "name a TOML file that can be read");
     let size = std::fs::metadata(path).map_err(&io)?.len();
-    let wrong = |expected: &str, got: String, cure: &str| Error::bad_input(path, expected, got, cure);
+    let wrong =
+        |expected: &str, got: String, cure: &str| Error::bad_input(path, expected, got, cure);
     if size > LARGEST {
-        return Err(wrong("a configuration of at most 1 MiB", format!("{size} bytes"), "name a TOML file"));
+        return Err(wrong(
+            "a configuration of at most 1 MiB",
+            format!("{size} bytes"),
+            "name a TOML file",
+        ));
     }
     let bytes = std::fs::read(path).map_err(&io)?;
-    let text =
-        String::from_utf8(bytes).map_err(|_| wrong("TOML", "bytes that are not UTF-8".into(), "name a TOML file"))?;
+    let text = String::from_utf8(bytes)
+        .map_err(|_| wrong("TOML", "bytes that are not UTF-8".into(), "name a TOML file"))?;
     let keys = "use the names of 'splitsum bake --help' without the dashes";
-    let config: Config = toml::from_str(&text)
-        .map_err(|error| wrong("[[table]] entries", format!("\n{}", error.to_string().trim_end()), keys))?;
+    let config: Config = toml::from_str(&text).map_err(|error| {
+        wrong("[[table]] entries", format!("\n{}", error.to_string().trim_end()), keys)
+    })?;
     if config.table.is_empty() {
         return Err(wrong("at least one [[table]]", "none".into(), "add one"));
     }
@@ -39,8 +44,17 @@ pub fn read(path: &str) -> Result<Vec<Job>> {
         let name = format!("{path}, table {}", index + 1);
         let mut job = table.job().map_err(|error| in_table(&name, error))?;
         match &table.output {
-            Some(output) if output != "-" => job.output = folder.join(output).to_string_lossy().into_owned(),
-            _ => return Err(Error::bad_input(name, "an output file", "none", "add output = \"FILE\"")),
+            Some(output) if output != "-" => {
+                job.output = folder.join(output).to_string_lossy().into_owned()
+            }
+            _ => {
+                return Err(Error::bad_input(
+                    name,
+                    "an output file",
+                    "none",
+                    "add output = \"FILE\"",
+                ));
+            }
         }
         jobs.push(job);
     }

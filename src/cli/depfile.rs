@@ -1,7 +1,8 @@
-//! Dependency files in Make's syntax, for make, ninja, CMake and meson; with the flags that compilers have for them.
+//! Dependency files in Make's syntax, for make, ninja, CMake and meson; with the flags that
+//! compilers have for them.
 //!
-//! The escapes are those that GNU make 4.3 and ninja 1.11 were seen to read, which is more than any manual says;
-//! where the two differ, make is right. tests/depfiles.rs asks both of them.
+//! The escapes are those that GNU make 4.3 and ninja 1.11 were seen to read, which is more than any
+//! manual says; where the two differ, make is right. tests/depfiles.rs asks both of them.
 
 use crate::error::Complaint;
 use std::ffi::OsString;
@@ -23,7 +24,7 @@ pub enum Side {
     Dependency,
 }
 
-/// What keeps make from reading a name, however it is escaped.
+/// The obstacle that keeps make from reading a name, however it is escaped.
 pub fn complain(what: &str, name: &str, side: Side) -> Option<Complaint> {
     let expected = if name.is_empty() {
         "a name"
@@ -50,8 +51,8 @@ pub fn complain(what: &str, name: &str, side: Side) -> Option<Complaint> {
 pub fn rule(targets: &[&str], dependency: Option<&str>) -> String {
     let targets: Vec<String> = targets.iter().map(|name| escape(name, Side::Target)).collect();
     let dependency = dependency.map(|name| {
-        // Without something before it, make takes a name with an = for a variable, and these words for the beginning
-        // or the end of one. The guards are empty, and nothing to ninja.
+        // Without something before it, make takes a name with an = for a variable, and these words
+        // for the beginning or the end of one. The guards are empty, and nothing to ninja.
         let definition = matches!(name, "define" | "undefine");
         let guard = if definition || name.contains('=') { "$< $< " } else { "" };
         format!(" {guard}{}", escape(name, Side::Dependency))
@@ -61,7 +62,8 @@ pub fn rule(targets: &[&str], dependency: Option<&str>) -> String {
 
 /// Whether the name is like that of a special target: `.PHONY`.
 fn is_special(name: &str) -> bool {
-    let capitals = |rest: &str| !rest.is_empty() && rest.chars().all(|c| c.is_ascii_uppercase() || c == '_');
+    let capitals =
+        |rest: &str| !rest.is_empty() && rest.chars().all(|c| c.is_ascii_uppercase() || c == '_');
     name.strip_prefix('.').is_some_and(capitals)
 }
 
@@ -88,12 +90,13 @@ fn escape(name: &str, side: Side) -> String {
 
 /// A pattern that nothing but the name itself matches, as long as there is such a file.
 fn escape_pattern(name: &str) -> String {
-    let literal = |c| if matches!(c, '\\' | '*' | '?' | '[') { format!("\\{c}") } else { String::from(c) };
+    let literal =
+        |c| if matches!(c, '\\' | '*' | '?' | '[') { format!("\\{c}") } else { String::from(c) };
     name.chars().map(literal).collect()
 }
 
-/// A character behind a run of backslashes; `equals` where an = came before. Backslashes count only before a
-/// character that has a meaning: there, two stand for one.
+/// A character behind a run of backslashes; `equals` where an = came before. Backslashes count only
+/// before a character that has a meaning: there, two stand for one.
 fn escape_one(c: char, run: usize, side: Side, equals: bool) -> String {
     let as_they_are = "\\".repeat(run);
     let doubled = "\\".repeat(2 * run);
@@ -113,7 +116,8 @@ fn escape_one(c: char, run: usize, side: Side, equals: bool) -> String {
     }
 }
 
-/// The backslashes at the end of a name, and what keeps `&:` and a line's last backslash from having a meaning.
+/// The backslashes at the end of a name, and what keeps `&:` and a line's last backslash from
+/// having a meaning.
 fn escape_end(run: usize, ampersand: bool, side: Side) -> String {
     match side {
         Side::Target if ampersand => "$()".into(),

@@ -1,4 +1,5 @@
-//! Messages of a length that people read: what quotes a whole file, or an argument of a megabyte, loses its middle.
+//! Messages of a length that people read: what quotes a whole file, or an argument of a megabyte,
+//! loses its middle.
 
 /// Lines of a message.
 const LINES: usize = 20;

@@ -2,19 +2,20 @@
 
 use super::place::resolve;
 use super::temporary::Temporary;
-use super::watched::{WriteSeek, fill_file};
-use crate::encode::png::encode_rgb;
+use super::watched::fill_file;
 use crate::error::{Complaint, Error, Result};
-use crate::report::map::Picture;
+use crate::format::WriteSeek;
+use crate::format::png::encode_rgb;
+use crate::image::Picture;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, IsTerminal, Seek, SeekFrom, Write};
 use std::path::Path;
 
-/// What goes to standard output, a device or a pipe, which cannot seek, waits in memory up to this size, then on the
-/// disk.
+/// Output to standard output, a device or a pipe, which cannot seek, waits in memory up to this
+/// size, then on the disk.
 const SPOOLED: usize = 1 << 24;
 
-/// What may help where a file cannot be written.
+/// The cure where a file cannot be written.
 const CURE: &str = "make room or choose another place with -o";
 
 /// Whether `name` can be written: asked before any work is done.
@@ -22,32 +23,47 @@ pub fn check(name: &str) -> Result<()> {
     if name == "-" {
         if io::stdout().is_terminal() {
             let cure = "redirect it, or name a file with -o";
-            return Err(Error::Usage(Complaint::new("output", "a file or a pipe for binary data", "a terminal", cure)));
+            return Err(Error::Usage(Complaint::new(
+                "output",
+                "a file or a pipe for binary data",
+                "a terminal",
+                cure,
+            )));
         }
         return super::standard_output::check();
     }
     let path = Path::new(name);
     if path.is_dir() || name.ends_with(std::path::is_separator) {
-        return Err(failed("write", name, "name a file")(io::Error::from(io::ErrorKind::IsADirectory)));
+        return Err(Error::io("write", name, "name a file")(io::Error::from(
+            io::ErrorKind::IsADirectory,
+        )));
     }
     if name == super::table_args::DEFAULT_OUTPUT {
-        let failed = failed("create the folder of", name, "choose another place with -o");
+        let failed = Error::io("create the folder of", name, "choose another place with -o");
         fs::create_dir_all(folder_of(path)).map_err(failed)?;
     }
     let target = resolve(path);
     let folder = folder_of(&target);
-    fs::metadata(folder).map_err(failed("find the folder of", name, "create it first"))?;
+    fs::metadata(folder).map_err(Error::io("find the folder of", name, "create it first"))?;
     let existing = match fs::metadata(path) {
         Ok(existing) => Some(existing),
         Err(error) if error.kind() == io::ErrorKind::NotFound => None,
         // Links in a circle, for one.
-        Err(error) => return Err(failed("write", name, "choose another place with -o")(error)),
+        Err(error) => return Err(Error::io("write", name, "choose another place with -o")(error)),
     };
     if existing.is_some() {
-        access(path).map_err(failed("write", name, "make it writable, or choose another place with -o"))?;
+        access(path).map_err(Error::io(
+            "write",
+            name,
+            "make it writable, or choose another place with -o",
+        ))?;
     }
     if existing.is_none_or(|existing| existing.is_file()) {
-        access(folder).map_err(failed("write to the folder of", name, "choose another place with -o"))?;
+        access(folder).map_err(Error::io(
+            "write to the folder of",
+            name,
+            "choose another place with -o",
+        ))?;
     }
     Ok(())
 }
@@ -66,11 +82,15 @@ fn access(_: &Path) -> io::Result<()> {
 
 /// Writes a file, or standard output if its name is `-`.
 pub fn write(name: &str, bytes: &[u8]) -> Result<()> {
-    write_with(name, &mut |out| out.write_all(bytes).map_err(failed("write", name, CURE)))
+    write_with(name, &mut |out| out.write_all(bytes).map_err(Error::io("write", name, CURE)))
 }
 
-/// Writes what `fill` writes to a file, or to standard output if its name is `-`; a file is never held in memory.
-pub fn write_with(name: &str, fill: &mut dyn FnMut(&mut dyn WriteSeek) -> Result<()>) -> Result<()> {
+/// Writes what `fill` writes to a file, or to standard output if its name is `-`; a file is never
+/// held in memory.
+pub fn write_with(
+    name: &str,
+    fill: &mut dyn FnMut(&mut dyn WriteSeek) -> Result<()>,
+) -> Result<()> {
     let path = Path::new(name);
     let existing = fs::metadata(path).ok();
     if name != "-" && existing.as_ref().is_none_or(Metadata::is_file) {
@@ -78,11 +98,11 @@ pub fn write_with(name: &str, fill: &mut dyn FnMut(&mut dyn WriteSeek) -> Result
         return replace(&resolve(path), existing.as_ref(), name, fill);
     }
     let mut spool = tempfile::spooled_tempfile(SPOOLED);
-    fill_file(&mut spool, fill, failed("write", name, CURE))?;
+    fill_file(&mut spool, fill, Error::io("write", name, CURE))?;
     let failed = if name == "-" {
-        failed("write to", "standard output", "check what reads it")
+        Error::io("write to", "standard output", "check what reads it")
     } else {
-        failed("write", name, CURE)
+        Error::io("write", name, CURE)
     };
     copy(&mut spool, name).map_err(failed)
 }
@@ -90,7 +110,12 @@ pub fn write_with(name: &str, fill: &mut dyn FnMut(&mut dyn WriteSeek) -> Result
 /// Whether `name` can be written and is that of a picture.
 pub fn check_picture(name: &str) -> Result<()> {
     if !name.ends_with(".png") {
-        return Err(Error::bad_input("output", "a name that ends in .png", format!("'{name}'"), "rename it"));
+        return Err(Error::bad_input(
+            "output",
+            "a name that ends in .png",
+            format!("'{name}'"),
+            "rename it",
+        ));
     }
     check(name)
 }
@@ -100,14 +125,15 @@ pub fn write_picture(name: &str, picture: &Picture) -> Result<()> {
     write(name, &encode_rgb(picture.width, picture.height, &picture.rgb)?)
 }
 
-/// A temporary file beside the target, renamed over it; permissions are kept, and owners where the system lets us.
+/// A temporary file beside the target, renamed over it; permissions are kept, and owners where the
+/// system lets us.
 fn replace(
     target: &Path,
     existing: Option<&Metadata>,
     name: &str,
     fill: &mut dyn FnMut(&mut dyn WriteSeek) -> Result<()>,
 ) -> Result<()> {
-    let failed = failed("write", name, CURE);
+    let failed = Error::io("write", name, CURE);
     let temporary = Temporary::new(folder_of(target)).map_err(&failed)?;
     if let Some(existing) = existing {
         keep_owner(temporary.file(), existing).map_err(&failed)?;
@@ -117,7 +143,8 @@ fn replace(
     temporary.persist(target).map_err(failed)
 }
 
-/// Gives a file the owner and the group of the one that it replaces, or the group alone; only root can do the former.
+/// Gives a file the owner and the group of the one that it replaces, or the group alone; only root
+/// can do the former.
 #[cfg(unix)]
 fn keep_owner(file: &File, existing: &Metadata) -> io::Result<()> {
     use std::os::unix::fs::{MetadataExt, fchown};
@@ -135,8 +162,11 @@ fn keep_owner(_: &File, _: &Metadata) -> io::Result<()> {
 
 fn copy(spool: &mut (impl io::Read + Seek), name: &str) -> io::Result<()> {
     spool.seek(SeekFrom::Start(0))?;
-    let mut out: Box<dyn Write> =
-        if name == "-" { Box::new(io::stdout().lock()) } else { Box::new(OpenOptions::new().write(true).open(name)?) };
+    let mut out: Box<dyn Write> = if name == "-" {
+        Box::new(io::stdout().lock())
+    } else {
+        Box::new(OpenOptions::new().write(true).open(name)?)
+    };
     io::copy(spool, &mut out)?;
     out.flush()
 }
@@ -146,9 +176,4 @@ fn folder_of(path: &Path) -> &Path {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     }
-}
-
-/// A failure of the system as an error.
-pub fn failed<'a>(action: &'static str, name: &'a str, cure: &'static str) -> impl Fn(io::Error) -> Error + 'a {
-    move |source| Error::Io { action, path: name.into(), source, cure }
 }

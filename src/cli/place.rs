@@ -1,5 +1,5 @@
-//! Which names mean the same file, through links, hard links and `..`: what a command reads and writes is
-//! compared before any work is done.
+//! Which names mean the same file, through links, hard links and `..`: what a command reads and
+//! writes is compared before any work is done.
 
 use std::ffi::OsString;
 use std::fs;
@@ -22,8 +22,8 @@ struct Place {
 }
 
 impl Files {
-    /// Takes note of a file; what comes back is what the same file already was. Devices and pipes are theirs who
-    /// write to them: they can be named as often as one likes.
+    /// Takes note of a file; what comes back is what the same file already was. Devices and pipes
+    /// are theirs who write to them: they can be named as often as one likes.
     pub fn add(&mut self, what: impl Into<String>, name: &str) -> Option<&str> {
         let place = Place::of(name)?;
         match self.0.iter().position(|(_, other)| other.is(&place)) {
@@ -45,7 +45,8 @@ impl Place {
             return None;
         }
         let path = canonical(&resolve(Path::new(name)));
-        let folder = path.parent().and_then(|folder| fs::metadata(folder).ok()).as_ref().and_then(id);
+        let folder =
+            path.parent().and_then(|folder| fs::metadata(folder).ok()).as_ref().and_then(id);
         let entry = folder.zip(path.file_name().map(OsString::from));
         Some(Place { id: existing.as_ref().and_then(id), entry, path })
     }
@@ -57,7 +58,7 @@ impl Place {
     }
 }
 
-/// What a path leads to when links are followed, also where nothing is there yet.
+/// Follows the links of a path, also where nothing is there yet.
 pub fn resolve(path: &Path) -> PathBuf {
     // Not all that exists has a path: a link to a pipe leads to none.
     if path.exists() {
@@ -71,8 +72,8 @@ pub fn resolve(path: &Path) -> PathBuf {
     path
 }
 
-/// The one spelling of a path. Folders that do not exist are taken as they are written: they are no links once they
-/// are made, so that `..` leads out of them again.
+/// The one spelling of a path. Folders that do not exist are taken as they are written: they are no
+/// links once they are made, so that `..` leads out of them again.
 fn canonical(path: &Path) -> PathBuf {
     if path.as_os_str().is_empty() {
         return canonical(Path::new("."));

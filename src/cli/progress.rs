@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Steps of a bar of work.
+#[cfg(feature = "compare")]
 const SHARES: usize = 1000;
 
 /// A bar that shows itself when the work turns out to be long.
@@ -20,17 +21,28 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// For so many texels of the table `name`.
+    /// A bar for the texels of the table `name`.
     pub fn new(name: &str, texels: usize, quiet: bool) -> Self {
-        Progress::with_template(name, texels, "{msg} {bar:40} {percent}% of {len} texels, {eta} left", quiet)
+        Progress::with_template(
+            name,
+            texels,
+            "{msg} {bar:40} {percent}% of {len} texels, {eta} left",
+            quiet,
+        )
     }
 
-    /// For so many pixels of the picture `name`.
+    /// A bar for the pixels of the picture `name`.
     pub fn of_pixels(name: &str, pixels: usize) -> Self {
-        Progress::with_template(name, pixels, "{msg} {bar:40} {percent}% of {len} pixels, {eta} left", false)
+        Progress::with_template(
+            name,
+            pixels,
+            "{msg} {bar:40} {percent}% of {len} pixels, {eta} left",
+            false,
+        )
     }
 
-    /// For work of which shares are told.
+    /// A bar for work whose progress is a fraction.
+    #[cfg(feature = "compare")]
     pub fn of_work(name: &str, quiet: bool) -> Self {
         Progress::with_template(name, SHARES, "{msg} {bar:40} {percent}%, {eta} left", quiet)
     }
@@ -41,16 +53,22 @@ impl Progress {
             bar.set_style(style);
         }
         bar.set_message(name.to_owned());
-        Progress { bar, start: Instant::now(), shown: Once::new(), wanted: !quiet && std::io::stderr().is_terminal() }
+        Progress {
+            bar,
+            start: Instant::now(),
+            shown: Once::new(),
+            wanted: !quiet && std::io::stderr().is_terminal(),
+        }
     }
 
-    /// So many texels or pixels more.
+    /// Advances by texels or pixels.
     pub fn advance(&self, count: usize) {
         self.bar.inc(count as u64);
         self.show();
     }
 
-    /// This share of the work, out of 1, is done.
+    /// This fraction of the work is done.
+    #[cfg(feature = "compare")]
     pub fn reach(&self, share: f64) {
         self.bar.set_position((share * SHARES as f64) as u64);
         self.show();

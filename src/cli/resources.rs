@@ -1,46 +1,46 @@
-//! Memory and threads: what work takes is compared with what the system gives, before any work is done.
+//! Memory and threads: what work takes is compared with what the system gives, before any work is
+//! done.
 
 use super::table_args::Job;
-use crate::backend::vulkan::gpu::GpuOptions;
+use crate::backend::device::GpuOptions;
 use crate::backend::{Backend, BackendChoice};
-use crate::bake::working_bytes;
+use crate::bake::plan::working_bytes;
 use crate::error::{Complaint, Error, Result};
-use crate::request::Request;
 use std::fs;
 use std::path::Path;
 
-/// Bytes besides tables and bands: the program itself, fits and nodes, the lines that an encoder holds.
+/// Bytes besides tables and bands: the program itself, fits and nodes, the lines that an encoder
+/// holds.
 const BASE: u64 = 32 << 20;
 
-/// Bytes of addresses that a thread takes: its stack, and what the C library sets aside for what it allocates
-/// (glibc's arenas).
+/// Bytes of addresses that a thread takes: its stack, and what the C library sets aside for what it
+/// allocates (glibc's arenas).
 const ADDRESSES_OF_A_THREAD: u64 = 66 << 20;
 
 /// Bytes of data that a thread takes: its stack, and what of its arena it uses.
 const DATA_OF_A_THREAD: u64 = 4 << 20;
 
-/// Bytes of addresses and of data that a software driver takes, with its compiler: lavapipe needs 350 MiB.
+/// Bytes of addresses and of data that a software driver takes, with its compiler: lavapipe needs
+/// 350 MiB.
 const DRIVER: u64 = 512 << 20;
 
 /// Pools of threads: ours, and that of the encoder of EXR.
 const POOLS: u64 = 2;
 
-/// What a user of a bake can do about refused threads.
+/// The cure of refused threads for a bake.
 pub const FEWER: &str = "bake with --threads 1, or allow more of them (ulimit -u)";
 
-/// What a user of another command can.
+/// The cure for another command.
 pub const ALLOW: &str = "allow more of them (ulimit -u)";
 
-/// Starts threads for work that takes so many bytes: as many as are asked for, or one for each core, but no more than
-/// limits of memory leave room for. An error where a thread is refused, with this cure, or where there is less memory
-/// than the work takes.
+/// Starts threads for work that takes `bytes`: as many as are asked for, or one for each
+/// core, but no more than limits of memory leave room for. An error where a thread is refused, with
+/// this cure, or where there is less memory than the work takes.
 pub fn start(bytes: u64, threads: Option<usize>, cure: &str) -> Result<()> {
-    if let Some(threads) = threads.filter(|threads| !(1..=1024).contains(threads)) {
-        return Err(Error::bad_input("threads", "1 to 1024", threads.to_string(), "give a number in that range"));
-    }
     let (need, limits) = (bytes + BASE, limits());
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let count = threads.unwrap_or_else(|| limits.iter().map(|limit| limit.threads(need)).fold(cores, usize::min));
+    let count = threads
+        .unwrap_or_else(|| limits.iter().map(|limit| limit.threads(need)).fold(cores, usize::min));
     limits.iter().try_for_each(|limit| limit.check(need, count))?;
     let builder = rayon::ThreadPoolBuilder::new();
     let builder = match count {
@@ -51,15 +51,25 @@ pub fn start(bytes: u64, threads: Option<usize>, cure: &str) -> Result<()> {
         _ => builder.num_threads(count),
     };
     builder.build_global().map_err(|error| {
-        Error::Resources(Complaint::new("threads", format!("{count} threads"), error.to_string(), cure))
+        Error::Resources(Complaint::new(
+            "threads",
+            format!("{count} threads"),
+            error.to_string(),
+            cure,
+        ))
     })
 }
 
-/// Opens a backend for work that takes so many bytes. A driver below a limit that is too small for it fails as it
-/// likes: it is refused where one is asked for, and left alone where there is a choice.
+/// Opens a backend for work that takes `bytes`. A driver below a limit that is too small for
+/// it fails as it likes: it is refused where one is asked for, and left alone where there is a
+/// choice.
 pub fn open_backend(choice: BackendChoice, options: &GpuOptions, bytes: u64) -> Result<Backend> {
-    let fits =
-        || limits().iter().filter(|limit| limit.of_a_thread > 0).try_for_each(|limit| limit.check(bytes + DRIVER, 1));
+    let fits = || {
+        limits()
+            .iter()
+            .filter(|limit| limit.of_a_thread > 0)
+            .try_for_each(|limit| limit.check(bytes + DRIVER, 1))
+    };
     let wanted = choice == BackendChoice::Vulkan || options.device.is_some();
     match choice {
         BackendChoice::Cpu => Backend::open(choice, options),
@@ -71,36 +81,31 @@ pub fn open_backend(choice: BackendChoice, options: &GpuOptions, bytes: u64) -> 
 
 /// Bytes that bakes take, one after the other.
 pub fn of_bakes(jobs: &[Job]) -> u64 {
-    jobs.iter().map(|job| need(&job.requests)).max().unwrap_or(0)
-}
-
-/// Bytes that the layers of a file take while they are baked one after the other.
-fn need(layers: &[Request]) -> u64 {
-    let texels = |request: &Request| request.x.size * request.y.size;
-    let table = |request: &Request| texels(request) * request.lut.channels().len() * request.precision.bytes();
-    let working = layers.iter().map(|layer| working_bytes(texels(layer))).max().unwrap_or(0);
-    (working + layers.iter().map(table).sum::<usize>()) as u64
+    let need = |job: &Job| working_bytes(&job.request) + job.request.bytes();
+    jobs.iter().map(need).max().unwrap_or(0) as u64
 }
 
 /// A limit of the system, and how much of it is left.
 struct Limit {
     what: &'static str,
     left: u64,
-    /// What a thread takes of it, in each pool.
+    /// The part that a thread takes of it, in each pool.
     of_a_thread: u64,
 }
 
 impl Limit {
-    /// How many threads there is room for beside so many bytes: one at the least, which takes nothing.
+    /// The number of threads that fit beside `need` bytes: one at the least, which takes
+    /// nothing.
     fn threads(&self, need: u64) -> usize {
         let room = self.left.saturating_sub(need);
         let threads = room.checked_div(POOLS * self.of_a_thread).unwrap_or(u64::MAX);
         usize::try_from(threads).unwrap_or(usize::MAX).max(1)
     }
 
-    /// Refuses work that takes so many bytes on so many threads.
+    /// Refuses work that takes `need` bytes on so many `threads` where there is less.
     fn check(&self, need: u64, threads: usize) -> Result<()> {
-        let need = if threads == 1 { need } else { need + POOLS * threads as u64 * self.of_a_thread };
+        let need =
+            if threads == 1 { need } else { need + POOLS * threads as u64 * self.of_a_thread };
         if need <= self.left {
             return Ok(());
         }
@@ -117,16 +122,27 @@ impl Limit {
 /// The limits that this system tells of.
 fn limits() -> Vec<Limit> {
     let read = |path: &str| fs::read_to_string(path).unwrap_or_default();
-    let (limits, status, memory) = (read("/proc/self/limits"), read("/proc/self/status"), read("/proc/meminfo"));
+    let (limits, status, memory) =
+        (read("/proc/self/limits"), read("/proc/self/status"), read("/proc/meminfo"));
     let of_process = |what, name: &str, used: &str, of_a_thread| {
         // "Max address space     2048000000           unlimited            bytes"
         let line = limits.lines().find(|line| line.starts_with(name))?;
         let soft: u64 = line[name.len()..].split_whitespace().next()?.parse().ok()?;
-        Some(Limit { what, left: soft.saturating_sub(kib_in(&status, used).unwrap_or(0)), of_a_thread })
+        Some(Limit {
+            what,
+            left: soft.saturating_sub(kib_in(&status, used).unwrap_or(0)),
+            of_a_thread,
+        })
     };
-    let addresses = of_process("the address space (ulimit -v)", "Max address space", "VmSize", ADDRESSES_OF_A_THREAD);
+    let addresses = of_process(
+        "the address space (ulimit -v)",
+        "Max address space",
+        "VmSize",
+        ADDRESSES_OF_A_THREAD,
+    );
     let data = of_process("the data size (ulimit -d)", "Max data size", "VmData", DATA_OF_A_THREAD);
-    let group = group_left().map(|left| Limit { what: "the control group's memory", left, of_a_thread: 0 });
+    let group =
+        group_left().map(|left| Limit { what: "the control group's memory", left, of_a_thread: 0 });
     let free = kib_in(&memory, "MemAvailable").map(|free| Limit {
         what: "the memory and the swap space",
         left: free + kib_in(&memory, "SwapFree").unwrap_or(0),
@@ -141,19 +157,25 @@ fn kib_in(text: &str, name: &str) -> Option<u64> {
     line.split_whitespace().next()?.parse::<u64>().ok().map(|kib| kib << 10)
 }
 
-/// What is left to the control group of this process, and to those above it.
+/// Bytes left to the control group of this process, and to those above it.
 fn group_left() -> Option<u64> {
     let groups = fs::read_to_string("/proc/self/cgroup").ok()?;
     groups.lines().filter_map(left_of_group).min()
 }
 
-/// The same by a line of `/proc/self/cgroup`: `0::/path` in version 2, `4:memory:/path` in version 1.
+/// The same by a line of `/proc/self/cgroup`: `0::/path` in version 2, `4:memory:/path` in version
+/// 1.
 fn left_of_group(line: &str) -> Option<u64> {
     let mut parts = line.splitn(3, ':').skip(1);
     let (controllers, own) = (parts.next()?, parts.next()?.trim_start_matches('/'));
     let (root, most, used, cache) = match controllers {
         "" => ("/sys/fs/cgroup", "memory.max", "memory.current", "inactive_file "),
-        "memory" => ("/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file "),
+        "memory" => (
+            "/sys/fs/cgroup/memory",
+            "memory.limit_in_bytes",
+            "memory.usage_in_bytes",
+            "total_inactive_file ",
+        ),
         _ => return None,
     };
     let left = |group: &Path| {
@@ -163,7 +185,10 @@ fn left_of_group(line: &str) -> Option<u64> {
         let used: u64 = read(used)?.trim().parse().ok()?;
         // What files are cached in is given back when it is wanted.
         let stat = read("memory.stat").unwrap_or_default();
-        let cached = stat.lines().find_map(|line| line.strip_prefix(cache)?.trim().parse().ok()).unwrap_or(0);
+        let cached = stat
+            .lines()
+            .find_map(|line| line.strip_prefix(cache)?.trim().parse().ok())
+            .unwrap_or(0);
         Some(most.saturating_sub(used.saturating_sub(cached)))
     };
     Path::new(own).ancestors().filter_map(left).min()

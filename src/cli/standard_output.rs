@@ -1,14 +1,19 @@
 //! Standard output: whether it is open, before work is done for it.
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use std::io;
 
-/// Whether standard output is open. Rust opens /dev/null for reading and writing where it is not; who wants what is
-/// written to be lost opens it for writing.
+/// Whether standard output is open. Rust opens /dev/null for reading and writing where it is not;
+/// who wants what is written to be lost opens it for writing.
 pub fn check() -> Result<()> {
     if is_closed() {
-        let closed = io::Error::new(io::ErrorKind::BrokenPipe, "it is closed, or is /dev/null opened for reading too");
-        return Err(super::output::failed("write to", "standard output", "redirect it to a file or a pipe")(closed));
+        let closed = io::Error::new(
+            io::ErrorKind::BrokenPipe,
+            "it is closed, or is /dev/null opened for reading too",
+        );
+        return Err(Error::io("write to", "standard output", "redirect it to a file or a pipe")(
+            closed,
+        ));
     }
     Ok(())
 }

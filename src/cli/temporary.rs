@@ -1,6 +1,6 @@
-//! Temporary files beside a target. Where the system can, they have no name until they are whole, so that nothing is
-//! left of them whatever ends the program; those with a name are locked while they are written, and removed later if
-//! they were left.
+//! Temporary files beside a target. Where the system can, they have no name until they are whole,
+//! so that nothing is left of them whatever ends the program; those with a name are locked while
+//! they are written, and removed later if they were left.
 
 use std::fs::{self, File};
 use std::io;
@@ -35,7 +35,8 @@ impl Temporary {
                 (file, Some(path))
             }
         };
-        // Where a file system has no locks, what was left is not removed: nobody can tell whether it is still written.
+        // Where a file system has no locks, what was left is not removed: nobody can tell whether
+        // it is still written.
         let _ = file.try_lock();
         remove_stale(folder, &file);
         Ok(Temporary { file, folder: folder.to_owned(), path })
@@ -50,9 +51,9 @@ impl Temporary {
         self.file.sync_all()?;
         let path = match self.path {
             Some(path) => path,
-            None => {
-                builder().make_in(&self.folder, |path| link(&self.file, path)).map(NamedTempFile::into_temp_path)?
-            }
+            None => builder()
+                .make_in(&self.folder, |path| link(&self.file, path))
+                .map(NamedTempFile::into_temp_path)?,
         };
         path.persist(target).map_err(|error| error.error)?;
         if cfg!(unix) {
@@ -75,7 +76,8 @@ fn builder() -> tempfile::Builder<'static, 'static> {
 fn nameless(folder: &Path) -> Option<File> {
     use rustix::fs::{Mode, OFlags, open};
     let mode = Mode::from_raw_mode(0o666);
-    let file = File::from(open(folder, OFlags::RDWR | OFlags::TMPFILE | OFlags::CLOEXEC, mode).ok()?);
+    let file =
+        File::from(open(folder, OFlags::RDWR | OFlags::TMPFILE | OFlags::CLOEXEC, mode).ok()?);
     descriptor(&file).exists().then_some(file)
 }
 
@@ -102,14 +104,16 @@ fn descriptor(file: &File) -> PathBuf {
     format!("/proc/self/fd/{}", file.as_raw_fd()).into()
 }
 
-/// Removes what killed programs have left in the folder: files of the owner of `ours` that nobody writes any more.
+/// Removes what killed programs have left in the folder: files of the owner of `ours` that nobody
+/// writes any more.
 fn remove_stale(folder: &Path, ours: &File) {
     let (Ok(entries), Ok(ours)) = (fs::read_dir(folder), ours.metadata()) else { return };
     for entry in entries.flatten() {
         let name = entry.file_name();
         let name = name.to_string_lossy();
         let length = PREFIX.len() + RANDOM + SUFFIX.len();
-        let ours_by_name = name.starts_with(PREFIX) && name.ends_with(SUFFIX) && name.len() == length;
+        let ours_by_name =
+            name.starts_with(PREFIX) && name.ends_with(SUFFIX) && name.len() == length;
         if ours_by_name && is_stale(&entry, &ours).unwrap_or(false) {
             let _ = fs::remove_file(entry.path());
         }

@@ -1,14 +1,11 @@
 //! Files that encoders fill, and what the system said when one could not be written.
 
 use crate::error::{Error, Result};
+use crate::format::WriteSeek;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 
-/// What encoders write to.
-pub trait WriteSeek: Write + Seek {}
-
-impl<T: Write + Seek> WriteSeek for T {}
-
-/// Fills a file through a buffer. What the system said is the error, whatever an encoder makes of it.
+/// Fills a file through a buffer. What the system said is the error, whatever an encoder makes of
+/// it.
 pub fn fill_file(
     file: impl WriteSeek,
     fill: &mut dyn FnMut(&mut dyn WriteSeek) -> Result<()>,
@@ -36,8 +33,11 @@ impl<T> Watched<T> {
         if let (None, Err(error)) = (&self.failure, &outcome)
             && error.kind() != io::ErrorKind::Interrupted
         {
-            self.failure =
-                Some(error.raw_os_error().map_or_else(|| io::Error::from(error.kind()), io::Error::from_raw_os_error));
+            self.failure = Some(
+                error
+                    .raw_os_error()
+                    .map_or_else(|| io::Error::from(error.kind()), io::Error::from_raw_os_error),
+            );
         }
         outcome
     }

@@ -1,112 +1,179 @@
-//! What a rule promises: the largest error of A and of B, for each distribution by name.
+//! The largest error of each rule for each distribution of normals.
 //!
-//! Every bound is measured: `splitsum chart bounds` climbs towards the largest error from thousands of starts, and
-//! what it finds stays below the bound over [`MARGIN`] (docs/bounds.md).
+//! Every bound is measured: `splitsum chart bounds` climbs towards the largest error from thousands
+//! of starts, and the largest that it finds stays below the bound over [`MARGIN`] (docs/bounds.md).
+//! A new distribution needs an arm of [`columns`] and the constants that it names: [`NONE`] for
+//! rules that it is not to use.
 
-use crate::model::{Masking, Microfacet, Ndf};
+use crate::brdf::{Masking, Microfacet, Ndf};
 
-/// Below this α, r = 0.07, Charlie's ring lies so near the horizon that 2e-6 is all that is promised of the
-/// reference, and nothing of its coarser kin.
+/// Below this α (roughness 0.07) Charlie's ring lies so near the horizon that the reference keeps
+/// 2e-6 only, and the other double exponential rules nothing.
 pub const CHARLIE_LIMIT: f64 = 0.0049;
 
-/// A bound is at least so many times the largest error that a long search finds.
+/// A bound is at least this many times the largest error that a long search finds.
 pub const MARGIN: f64 = 1.5;
 
-/// The bound of what a rule does not serve for.
-pub const NONE: f64 = f64::INFINITY;
-
-/// The bounds of a rule: absolute, or of albedos above 1 relative.
+/// The bounds of a rule's errors: absolute, or relative where an albedo exceeds 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
-    /// Of GGX.
-    pub ggx: f64,
-    /// Of Beckmann.
-    pub beckmann: f64,
-    /// Of Beckmann with Walter's term, which jumps: no rule over half vectors resolves that.
-    pub beckmann_walter: f64,
-    /// Of Blinn-Phong.
-    pub blinn_phong: f64,
-    /// Of Charlie over its whole domain, with the masking terms that are no fit.
-    pub charlie: f64,
-    /// Of Charlie over its whole domain with its fitted Λ: that is so large at small α that what is seen of the ring
-    /// is its far tail, which falls faster than the rules over half vectors follow (below roughness 1e-6).
-    pub charlie_fitted: f64,
-    /// Of Charlie from [`CHARLIE_LIMIT`] up.
-    pub charlie_above_limit: f64,
-    /// What is promised of B besides, but of Charlie's.
-    pub of_b: ShareOfB,
-    /// The same of Charlie from [`CHARLIE_LIMIT`] up.
-    pub of_b_of_charlie: ShareOfB,
+pub struct Bound {
+    /// The largest error of any integral.
+    pub all: f64,
+    /// A sharper bound for the integrals whose weights vanish at normal incidence (B), which span
+    /// ten decades: at most `relative` of the integral and `absolute`. Infinite where there is
+    /// none.
+    pub relative: f64,
+    /// The other part of it.
+    pub absolute: f64,
 }
 
-/// A bound for every decade of B: a share of B and a floor.
+/// The bound of a rule that does not serve for a lobe.
+pub const NONE: Bound = all(f64::INFINITY);
+
+/// One bound for all integrals.
+pub const fn all(all: f64) -> Bound {
+    Bound { all, relative: f64::INFINITY, absolute: f64::INFINITY }
+}
+
+/// A bound for all integrals, and a sharper one for those that vanish at normal incidence.
+pub const fn sharp(all: f64, relative: f64, absolute: f64) -> Bound {
+    Bound { all, relative, absolute }
+}
+
+/// The bounds of all rules for one lobe.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ShareOfB {
-    /// Of B.
-    pub share: f64,
-    /// What comes on top.
-    pub floor: f64,
+pub struct Columns {
+    /// Over half vectors.
+    pub h56: Bound,
+    /// Over half vectors.
+    pub h130: Bound,
+    /// Over half vectors.
+    pub h288: Bound,
+    /// Over half vectors.
+    pub h640: Bound,
+    /// Over half vectors.
+    pub h1536: Bound,
+    /// Over half vectors.
+    pub h6144: Bound,
+    /// Double exponential.
+    pub d6144: Bound,
+    /// Double exponential.
+    pub d10240: Bound,
+    /// Double exponential.
+    pub reference: Bound,
+    /// Over directions of light.
+    pub l288: Bound,
+    /// Over directions of light.
+    pub l512: Bound,
+    /// Over directions of light.
+    pub l4608: Bound,
+    /// Interpolated.
+    pub s640: Bound,
+    /// Interpolated.
+    pub s2304: Bound,
 }
 
-impl ShareOfB {
-    /// No promise.
-    pub const NONE: ShareOfB = ShareOfB { share: NONE, floor: NONE };
-
-    /// At most `share` of B and `floor`.
-    pub const fn of(share: f64, floor: f64) -> Self {
-        ShareOfB { share, floor }
-    }
-
-    /// What B may be off, `scale` being the albedo where it is above 1.
-    fn at(self, b: f64, scale: f64) -> f64 {
-        // Without a promise a product with B = 0 would be NaN.
-        if self.share.is_finite() { self.share * b.abs() + self.floor * scale } else { NONE }
-    }
-}
-
-impl Bounds {
-    /// Of a rule that serves for no specular lobe.
-    pub const NONE: Bounds = Bounds::same(NONE, ShareOfB::NONE);
-
-    /// The same for all.
-    pub const fn same(bound: f64, of_b: ShareOfB) -> Self {
-        Bounds {
-            ggx: bound,
-            beckmann: bound,
-            beckmann_walter: bound,
-            blinn_phong: bound,
-            charlie: bound,
-            charlie_fitted: bound,
-            charlie_above_limit: bound,
-            of_b,
-            of_b_of_charlie: of_b,
-        }
-    }
-
-    /// For GGX alone.
-    pub const fn ggx_alone(ggx: f64, of_b: ShareOfB) -> Self {
-        Bounds { ggx, ..Bounds::same(NONE, of_b) }
-    }
-
-    /// The bound over the whole domain of a lobe.
-    pub fn over_domain(&self, lobe: Microfacet) -> f64 {
-        match lobe.ndf {
-            Ndf::Ggx => self.ggx,
-            Ndf::Beckmann => self.beckmann,
-            Ndf::BeckmannWalter => self.beckmann_walter,
-            Ndf::BlinnPhong => self.blinn_phong,
-            Ndf::Charlie if lobe.masking == Masking::HeightCorrelated => self.charlie_fitted,
-            Ndf::Charlie => self.charlie,
-        }
-    }
-
-    /// The bounds of A and of B at an α, for a B where the albedo, if it is above 1, is `scale`.
-    pub(super) fn at(&self, lobe: Microfacet, alpha: f64, b: f64, scale: f64) -> (f64, f64) {
-        let (all, of_b) = match lobe.ndf {
-            Ndf::Ggx | Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong => (self.over_domain(lobe), self.of_b),
-            Ndf::Charlie if alpha < CHARLIE_LIMIT => (self.over_domain(lobe), ShareOfB::NONE),
-            Ndf::Charlie => (self.charlie_above_limit, self.of_b_of_charlie),
-        };
-        (all * scale, of_b.at(b, scale).min(all * scale))
+/// The bounds for a lobe at an α; for Charlie they are wider below [`CHARLIE_LIMIT`].
+pub const fn columns(lobe: Microfacet, alpha: f64) -> &'static Columns {
+    match lobe.ndf {
+        Ndf::Ggx => &GGX,
+        Ndf::Beckmann => &BECKMANN,
+        Ndf::BeckmannWalter => &BECKMANN_WALTER,
+        Ndf::BlinnPhong => &BLINN_PHONG,
+        Ndf::Charlie => match lobe.masking {
+            _ if alpha >= CHARLIE_LIMIT => &CHARLIE,
+            Masking::HeightCorrelated => &CHARLIE_FITTED_BELOW_LIMIT,
+            _ => &CHARLIE_BELOW_LIMIT,
+        },
     }
 }
+
+const GGX: Columns = Columns {
+    h56: all(1e-3),
+    h130: all(1e-4),
+    h288: all(1e-5),
+    h640: all(1.5e-6),
+    h1536: all(1e-7),
+    h6144: all(3e-9),
+    l288: all(3e-5),
+    l512: all(1e-5),
+    l4608: sharp(5e-9, 8e-8, 1e-12),
+    s640: all(1e-5),
+    s2304: sharp(3e-8, 8e-8, 3e-11),
+    ..SMOOTH
+};
+
+const BECKMANN: Columns = Columns {
+    h56: all(2.5e-3),
+    h130: all(1e-4),
+    h288: all(1e-5),
+    h640: all(1e-6),
+    h1536: all(1e-7),
+    h6144: all(5e-10),
+    ..SMOOTH
+};
+
+/// Walter's Smith term jumps, which no rule over half vectors resolves.
+const BECKMANN_WALTER: Columns = Columns {
+    h56: all(3e-3),
+    h130: all(5e-4),
+    h288: all(1.5e-4),
+    h640: all(6e-5),
+    h1536: all(1.2e-5),
+    h6144: all(2e-6),
+    ..SMOOTH
+};
+
+const BLINN_PHONG: Columns = Columns {
+    h56: all(2e-2),
+    h130: all(1e-3),
+    h288: all(4e-5),
+    h640: all(3e-6),
+    h1536: all(1.5e-7),
+    h6144: all(1e-9),
+    ..SMOOTH
+};
+
+const CHARLIE: Columns = Columns {
+    d6144: sharp(5e-7, 1.5e-6, 1e-12),
+    d10240: sharp(6e-9, 7e-8, 1e-12),
+    reference: SMOOTH.reference,
+    ..CHARLIE_BELOW_LIMIT
+};
+
+const CHARLIE_BELOW_LIMIT: Columns = Columns {
+    h56: all(6e-2),
+    h130: all(2e-2),
+    h288: all(3e-3),
+    h640: all(5e-5),
+    h1536: all(4e-6),
+    h6144: all(3e-6),
+    d6144: NONE,
+    d10240: NONE,
+    reference: all(2e-6),
+    ..SMOOTH
+};
+
+/// The fitted Λ is so large at small α that only the far tail of the ring is seen, which falls
+/// faster than the rules over half vectors follow (below roughness 1e-6).
+const CHARLIE_FITTED_BELOW_LIMIT: Columns =
+    Columns { h640: all(6e-4), h1536: all(2e-4), h6144: all(3e-5), ..CHARLIE_BELOW_LIMIT };
+
+/// The double exponential rules are as sharp for one smooth lobe as for any other; the rest serve
+/// for none.
+const SMOOTH: Columns = Columns {
+    h56: NONE,
+    h130: NONE,
+    h288: NONE,
+    h640: NONE,
+    h1536: NONE,
+    h6144: NONE,
+    d6144: sharp(5e-7, 1e-6, 1e-12),
+    d10240: sharp(6e-9, 4e-8, 1e-12),
+    reference: sharp(1e-13, 3e-12, 3e-24),
+    l288: NONE,
+    l512: NONE,
+    l4608: NONE,
+    s640: NONE,
+    s2304: NONE,
+};

@@ -1,54 +1,123 @@
-//! The preintegrated specular lobe of the split sum, E(F0) = F0 A + B, often called DFG or "the BRDF LUT".
+//! The preintegrated specular lobe of the split sum, often called DFG or "the BRDF LUT": the
+//! integrals of the weights of its Fresnel model, E(F0) = F0 A + B for Schlick's.
 //!
-//! Karis, "Real Shading in Unreal Engine 4", 2013; the multiple-scattering packing (B, E) is that of Lagarde and
-//! Golubev, "The road toward unified rendering with Unity's high definition rendering pipeline", 2018, and of Filament.
+//! Karis, "Real Shading in Unreal Engine 4", 2013; the multiple-scattering packing (B, E) is that
+//! of Lagarde and Golubev, "The road toward unified rendering with Unity's high definition
+//! rendering pipeline", 2018, and of Filament.
 
-use crate::ball::Ball;
-use crate::integrate::ScaleBias;
-use crate::model::Microfacet;
+use super::{MOST_CHANNELS, first};
+use crate::brdf::fresnel::Integral;
+use crate::brdf::{Fresnel, Microfacet};
+use crate::error::{Error, Result};
+use crate::numeric::ball::Ball;
 use crate::table::Channel;
 
-/// Which lobe, and which numbers of it.
+/// A lobe, its Fresnel model, and the numbers that a texel holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dfg {
-    /// The lobe.
-    pub lobe: Microfacet,
-    /// The numbers.
-    pub channels: DfgChannels,
+    lobe: Microfacet,
+    fresnel: Fresnel,
+    channels: DfgChannels,
 }
 
-/// Which numbers a texel holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
+/// The numbers that a texel holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DfgChannels {
-    /// (A, B): E(F0) = F0 A + B.
-    Ab,
+    /// The integrals of all weights: (A, B) for Schlick's.
+    All,
     /// (B, E): E(F0) = F0 (E - B) + B, and E for energy compensation.
     Be,
     /// E alone: the directional albedo at F = 1.
     E,
 }
 
-const A: Channel = Channel { name: "A", meaning: "scale: E(F0) = F0*A + B" };
-const B: Channel = Channel { name: "B", meaning: "bias: E(F0) = F0*A + B" };
+/// The channel that holds an integral.
+fn channel_of(&Integral { name, meaning, .. }: &Integral) -> Channel {
+    Channel { name, meaning }
+}
+
 const E: Channel = Channel { name: "E", meaning: "directional albedo at F = 1: E = A + B" };
 
-impl DfgChannels {
+impl Dfg {
+    /// Refuses a masking term that has no meaning for the distribution, and channels that the
+    /// Fresnel model has not.
+    pub fn new(lobe: Microfacet, fresnel: Fresnel, channels: DfgChannels) -> Result<Self> {
+        lobe.check()?;
+        let dfg = Dfg { lobe, fresnel, channels };
+        let count = fresnel.count();
+        let serves = match channels {
+            DfgChannels::All => true,
+            DfgChannels::Be => count == 2,
+            DfgChannels::E => count >= 2,
+        };
+        if serves {
+            return Ok(dfg);
+        }
+        let what = format!("channels of {fresnel}");
+        let all = Dfg { channels: DfgChannels::All, ..dfg }.word();
+        Err(Error::bad_input(what, all, dfg.word(), "choose these, or another Fresnel model"))
+    }
+
+    /// The channels with this word: the letters of the integrals, as in `ab`, or `be` or `e`.
+    pub fn with_channels(lobe: Microfacet, fresnel: Fresnel, word: &str) -> Result<Self> {
+        let all = Dfg { lobe, fresnel, channels: DfgChannels::All };
+        match word {
+            "be" => Dfg::new(lobe, fresnel, DfgChannels::Be),
+            "e" => Dfg::new(lobe, fresnel, DfgChannels::E),
+            _ if word == all.word() => Dfg::new(lobe, fresnel, DfgChannels::All),
+            _ => {
+                let (what, expected) =
+                    (format!("channels of {fresnel}"), format!("{}, be, e", all.word()));
+                Err(Error::bad_input(what, expected, format!("'{word}'"), "name one of these"))
+            }
+        }
+    }
+
+    /// The lobe.
+    pub fn lobe(&self) -> Microfacet {
+        self.lobe
+    }
+
+    /// Its Fresnel model.
+    pub fn fresnel(&self) -> Fresnel {
+        self.fresnel
+    }
+
+    /// The word of the channels.
+    pub fn word(&self) -> &'static str {
+        match self.channels {
+            DfgChannels::All => self.fresnel.definition().channels,
+            DfgChannels::Be => "be",
+            DfgChannels::E => "e",
+        }
+    }
+
+    /// The flag of the Fresnel model, which Schlick's does not need.
+    pub(super) fn fresnel_flag(&self) -> String {
+        match self.fresnel {
+            Fresnel::Schlick => String::new(),
+            fresnel => format!(" --fresnel {fresnel}"),
+        }
+    }
+
     /// The channels in order.
-    pub fn list(self) -> &'static [Channel] {
-        match self {
-            DfgChannels::Ab => &[A, B],
-            DfgChannels::Be => &[B, E],
-            DfgChannels::E => &[E],
+    pub(super) fn list(&self) -> Vec<Channel> {
+        let integrals = self.fresnel.definition().integrals.iter();
+        let integrals: Vec<Channel> = integrals.map(channel_of).collect();
+        match self.channels {
+            DfgChannels::All => integrals,
+            DfgChannels::Be => vec![integrals[1], E],
+            DfgChannels::E => vec![E],
         }
     }
 
     /// Their values, and zeros for the channels that there are not.
-    pub fn values(self, integral: ScaleBias<Ball>) -> [Ball; 3] {
-        match self {
-            DfgChannels::Ab => [integral.a, integral.b, Ball::default()],
-            DfgChannels::Be => [integral.b, integral.e(), Ball::default()],
-            DfgChannels::E => [integral.e(), Ball::default(), Ball::default()],
+    #[inline(always)]
+    pub(super) fn values(&self, integrals: &[Ball]) -> [Ball; MOST_CHANNELS] {
+        match self.channels {
+            DfgChannels::All => first(integrals),
+            DfgChannels::Be => first(&[integrals[1], integrals[0] + integrals[1]]),
+            DfgChannels::E => first(&[integrals[0] + integrals[1]]),
         }
     }
 }

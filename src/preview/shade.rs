@@ -1,10 +1,11 @@
-//! The colour of a place around a sphere, scene by scene: the twin of shaders/preview.wgsl, whose `shade` it is.
+//! The colour of a place around a sphere, scene by scene: the twin of shaders/preview.wgsl, whose
+//! `shade` it is.
 
 use super::curve::Curve;
 use super::{Column, Scene};
+use crate::brdf::Microfacet;
+use crate::brdf::fresnel::schlick_weight;
 use crate::integrate::ScaleBias;
-use crate::model::Microfacet;
-use crate::model::fresnel::schlick_weight;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
@@ -17,7 +18,7 @@ const SKY0: DVec3 = DVec3::new(0.55, 0.6, 0.7);
 const SKY1: DVec3 = DVec3::new(0.3, 0.42, 0.6);
 const SKY2: DVec3 = DVec3::new(-0.22, -0.12, 0.0);
 
-/// What the CPU reads of a sphere.
+/// A sphere, ready for the CPU.
 pub struct Sphere {
     /// Its lobe.
     pub lobe: Microfacet,
@@ -33,7 +34,9 @@ pub struct Sphere {
 fn pi_d_v(lobe: Microfacet, x: f64, mu: f64, nh: f64, alpha: f64) -> f64 {
     let (c2, width) = (nh * nh, lobe.ndf.width(alpha));
     let y2 = (1.0 - nh) * (1.0 + nh) / (c2 * width * width);
-    PI * lobe.ndf.slope_density(y2, alpha) / (width * width * c2 * c2) * lobe.cosine_visibility(x, mu, alpha) / x
+    PI * lobe.ndf.slope_density(y2, alpha) / (width * width * c2 * c2)
+        * lobe.cosine_visibility(x, mu, alpha)
+        / x
 }
 
 /// The table as a renderer reads it.
@@ -41,7 +44,8 @@ fn lookup(sphere: &Sphere, mu: f64) -> ScaleBias {
     sphere.table.at(mu)
 }
 
-/// The sky in the direction of height y, its first and second coefficients scaled by a kernel's means.
+/// The sky in the direction of height y, its first and second coefficients scaled by a kernel's
+/// means.
 fn sky(y: f64, p1: f64, p2: f64) -> DVec3 {
     SKY0 + SKY1 * (p1 * y) + SKY2 * (p2 * (1.5 * y * y - 0.5))
 }
@@ -53,7 +57,8 @@ fn punctual(sphere: &Sphere, n: DVec3) -> DVec3 {
     }
     let h = (LIGHT + DVec3::Z).normalize();
     let f = DIELECTRIC + (1.0 - DIELECTRIC) * schlick_weight(h.z);
-    let specular = f * pi_d_v(sphere.lobe, x, n.z.max(1e-4), n.dot(h).clamp(1e-4, 1.0), sphere.column.alpha);
+    let specular =
+        f * pi_d_v(sphere.lobe, x, n.z.max(1e-4), n.dot(h).clamp(1e-4, 1.0), sphere.column.alpha);
     (BASE + specular) * (LIGHT_COLOUR * x)
 }
 

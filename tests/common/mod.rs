@@ -3,10 +3,23 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use libtest_mimic::Trial;
-use splitsum::integrate::ScaleBias;
-use splitsum::integrate::rule::REFERENCE;
-use splitsum::model::{Masking, Microfacet, Ndf};
-use splitsum::quadrature::double_exponential::tanh_sinh;
+use splitsum::backend::cpu;
+use splitsum::brdf::fresnel::Schlick;
+use splitsum::brdf::{Fresnel, Masking, Microfacet, Ndf};
+use splitsum::certify::decision::Task;
+use splitsum::certify::stages::Stages;
+use splitsum::certify::ziv::{DeviceTable, certify_band};
+use splitsum::choice::Choice;
+use splitsum::error::Result;
+use splitsum::integrate::double_exponential::{DoubleExponentialNodes, double_exponential};
+use splitsum::integrate::half_vectors::{HalfVectorNodes, half_vectors};
+use splitsum::integrate::light_directions::{LightDirectionNodes, light_directions};
+use splitsum::integrate::rule::{Method, Rule};
+use splitsum::integrate::rules::REFERENCE;
+use splitsum::integrate::{Field, ScaleBias};
+use splitsum::lut::{Dfg, DfgChannels, Lut};
+use splitsum::numeric::quadrature::tanh_sinh::tanh_sinh;
+use splitsum::table::claim::{Certificate, Stage};
 
 pub fn ggx(masking: Masking) -> Microfacet {
     Microfacet { ndf: Ndf::Ggx, masking }
@@ -14,8 +27,7 @@ pub fn ggx(masking: Masking) -> Microfacet {
 
 /// The lobe of a row that begins with its model and its masking.
 pub fn lobe_of(row: &[&str]) -> Microfacet {
-    let [ndf, masking] = [row[0], row[1]].map(serde_json::Value::from);
-    Microfacet { ndf: serde_json::from_value(ndf).unwrap(), masking: serde_json::from_value(masking).unwrap() }
+    Microfacet { ndf: Ndf::named(row[0]).unwrap(), masking: Masking::named(row[1]).unwrap() }
 }
 
 /// The rows of a file of figures, without comments and the line of names.
@@ -28,7 +40,8 @@ pub fn number(text: &str) -> f64 {
     text.parse().unwrap()
 }
 
-/// Numbers in [0, 1), the same in every run: Knuth's linear congruential generator, its upper 53 bits.
+/// Numbers in [0, 1), the same in every run: Knuth's linear congruential generator, its upper 53
+/// bits.
 pub struct Random(pub u64);
 
 impl Random {
@@ -38,8 +51,9 @@ impl Random {
     }
 }
 
-/// `count` points (n·v, α), a third of them spread evenly, the others crowded towards the edges down to 1e-8, then the
-/// edges themselves: n·v in {0, 1e-6, …, 1} by perceptual roughness in {1e-3, …, 1}.
+/// `count` points (n·v, α), a third of them spread evenly, the others crowded towards the edges
+/// down to 1e-8, then the edges themselves: n·v in {0, 1e-6, …, 1} by perceptual roughness in
+/// {1e-3, …, 1}.
 pub fn domain(count: usize) -> Vec<(f64, f64)> {
     let mut random = Random(20261122);
     let mut points: Vec<(f64, f64)> = (0..count)
@@ -62,14 +76,123 @@ pub fn domain(count: usize) -> Vec<(f64, f64)> {
     points
 }
 
-/// A and B averaged over all directions, by the reference on double exponential nodes in two pieces that meet at `middle`.
+/// A rule at single points, in single numbers where the CPU takes eight at a time.
+pub struct Integrator {
+    rule: Rule,
+    nodes: Nodes,
+}
+
+enum Nodes {
+    HalfVectors(HalfVectorNodes),
+    LightDirections(LightDirectionNodes),
+    DoubleExponential(DoubleExponentialNodes),
+    None,
+}
+
+impl Integrator {
+    /// The nodes of a rule; of an interpolant those of its source.
+    pub fn new(rule: Rule) -> Self {
+        let nodes = match rule.method {
+            Method::HalfVectors(rule) => Nodes::HalfVectors(rule.nodes()),
+            Method::LightDirections(rule) => Nodes::LightDirections(rule.nodes()),
+            Method::DoubleExponential(rule) => Nodes::DoubleExponential(rule.nodes()),
+            Method::Interpolant(rule) => Nodes::LightDirections(rule.source.nodes()),
+            Method::ClosedForm => Nodes::None,
+        };
+        Integrator { rule, nodes }
+    }
+
+    /// (A, B) of a lobe; NaN where the rule is none for specular lobes.
+    pub fn integrate(&self, lobe: Microfacet, mu: f64, alpha: f64) -> ScaleBias {
+        if alpha == 0.0 {
+            return cpu::bake_points(lobe, &[(mu, alpha)], &self.rule).scale_bias()[0];
+        }
+        match &self.nodes {
+            Nodes::HalfVectors(nodes) => half_vectors(lobe, Schlick, mu, alpha, nodes).0.into(),
+            Nodes::LightDirections(nodes) => {
+                light_directions(lobe, Schlick, mu, alpha, nodes).0.into()
+            }
+            Nodes::DoubleExponential(nodes) => {
+                double_exponential(lobe, Schlick, mu, alpha, nodes).0.into()
+            }
+            Nodes::None => ScaleBias { a: f64::NAN, b: f64::NAN },
+        }
+    }
+}
+
+/// The table of A and B.
+pub fn ab(lobe: Microfacet) -> Lut {
+    Lut::Dfg(Dfg::new(lobe, Fresnel::Schlick, DfgChannels::All).unwrap())
+}
+
+/// A table of these A and B as backends give it.
+pub fn field(values: &[ScaleBias]) -> Field {
+    Field::of(2, values.iter().flat_map(|value| value.array()).collect())
+}
+
+/// Adds `factor` times a part.
+pub fn add(sum: &mut ScaleBias, factor: f64, part: ScaleBias) {
+    *sum = ScaleBias { a: sum.a + factor * part.a, b: sum.b + factor * part.b };
+}
+
+/// How far two sets of values are apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Difference {
+    /// The largest absolute difference.
+    pub max: f64,
+    /// The root of the mean squared difference.
+    pub rms: f64,
+}
+
+impl Difference {
+    /// Of two sequences of the same length; NaN anywhere makes it NaN.
+    pub fn between(pairs: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        let (mut max, mut squares, mut count) = (0.0f64, 0.0, 0);
+        for (a, b) in pairs {
+            let d = (a - b).abs();
+            max = if d <= max { max } else { d };
+            squares += d * d;
+            count += 1;
+        }
+        Difference { max, rms: (squares / f64::from(count.max(1))).sqrt() }
+    }
+}
+
+/// A certified table with its certificate.
+#[derive(Debug)]
+pub struct Certified {
+    pub values: Vec<f64>,
+    pub certificate: Certificate,
+    pub stages: Vec<Stage>,
+}
+
+/// Certifies a table.
+pub fn certify(task: &Task, device: Option<DeviceTable>) -> Result<Certified> {
+    certify_by(task, &Stages::of(task), device)
+}
+
+/// The same through these stages.
+pub fn certify_by(task: &Task, stages: &Stages, device: Option<DeviceTable>) -> Result<Certified> {
+    let (values, tally) = certify_band(task, stages, device, &|_| ())?;
+    let certificate = tally.certificate(task, stages, String::new())?;
+    Ok(Certified { values, certificate, stages: tally.stages })
+}
+
+/// The bounds of a rule's errors in A and B.
+pub fn errors_at(rule: &Rule, lobe: Microfacet, alpha: f64, value: ScaleBias) -> ScaleBias {
+    let errors = rule.errors(lobe).at(alpha, &value.array());
+    ScaleBias { a: errors[0], b: errors[1] }
+}
+
+/// A and B averaged over all directions, by the reference on double exponential nodes in two pieces
+/// that meet at `middle`.
 pub fn average_in_two_pieces(lobe: Microfacet, alpha: f64, middle: f64) -> ScaleBias {
-    let integrator = REFERENCE.integrator();
-    let mut sum = ScaleBias::zero();
+    let integrator = Integrator::new(REFERENCE);
+    let mut sum = ScaleBias::default();
     for (start, length) in [(0.0, middle), (middle, 1.0 - middle)] {
         for node in tanh_sinh(72) {
             let mu = start + length * node.from_start;
-            sum.add(2.0 * length * node.weight * mu, integrator.integrate(lobe, mu, alpha));
+            add(&mut sum, 2.0 * length * node.weight * mu, integrator.integrate(lobe, mu, alpha));
         }
     }
     sum
@@ -83,7 +206,9 @@ fn required() -> bool {
 /// A test that cannot run here: ignored, or failed where it is required.
 pub fn missing(name: String, reason: String) -> Trial {
     if required() {
-        return Trial::test(name, move || Err(format!("SPLITSUM_REQUIRE_VULKAN is set, but {reason}").into()));
+        return Trial::test(name, move || {
+            Err(format!("SPLITSUM_REQUIRE_VULKAN is set, but {reason}").into())
+        });
     }
     Trial::test(format!("{name} ({reason})"), || Ok(())).with_ignored_flag(true)
 }

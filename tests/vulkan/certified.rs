@@ -1,23 +1,28 @@
-//! Certified tables from devices: the same bytes as from the CPU, whatever the tiles; and the bounds of a device's
-//! values.
+//! Certified tables from devices: the same bytes as from the CPU, whatever the tiles; and the
+//! bounds of a device's values.
 
 use crate::DeviceTest;
-use crate::common::{Random, ggx};
+use crate::common::{Random, ab, ggx};
 use libtest_mimic::Failed;
-use splitsum::axis::{Axis, AxisSpec, Parameter};
-use splitsum::backend::vulkan::bake::bake;
-use splitsum::backend::vulkan::gpu::{Gpu, GpuOptions};
-use splitsum::backend::{Backend, BackendChoice, cpu};
-use splitsum::encode::{Format, encode};
+use splitsum::backend::device::GpuOptions;
+use splitsum::backend::{Backend, BackendChoice, Gpu, bake, cpu};
+use splitsum::brdf::{Diffuse, Fresnel, Masking, Microfacet, Ndf};
+use splitsum::choice::Choice;
 use splitsum::error::ExitCode;
+use splitsum::format::{Format, encode};
+use splitsum::integrate::Integrand;
 use splitsum::integrate::rule::{CHARLIE_LIMIT, Method, Rule};
-use splitsum::lut::{Dfg, DfgChannels, Grid, Lut};
-use splitsum::model::{Diffuse, Masking, Microfacet, Ndf};
-use splitsum::precision::Precision;
+use splitsum::lut::{Dfg, DfgChannels, Lut};
 use splitsum::request::{Accuracy, Request};
+use splitsum::table::axis::{Axis, AxisSpec, Parameter};
+use splitsum::table::grid::Grid;
+use splitsum::table::precision::Precision;
 
 pub const TESTS: &[DeviceTest] = &[
-    ("a certified table of 512 x 512 has the CPU's bytes in any tiles", the_usual_table_in_any_tiles),
+    (
+        "a certified table of 512 x 512 has the CPU's bytes in any tiles",
+        the_usual_table_in_any_tiles,
+    ),
     ("certified tables of every lobe have the CPU's bytes", every_lobe),
     ("certified tables in every precision have the CPU's bytes", every_precision),
     ("the device stays within the bounds that certification trusts", within_its_bounds),
@@ -28,21 +33,20 @@ fn file(lut: Lut, size: usize, precision: Precision, backend: &Backend) -> Resul
     // Charlie's albedo is infinite at n.v = 0, and certified from a roughness of 0.07 on.
     let (x, y) = (axis("nov,min=1e-4")?, axis("roughness,min=0.07")?);
     let plain = |parameter| Axis::new(AxisSpec::of(parameter), size);
-    let charlie = matches!(lut, Lut::Dfg(Dfg { lobe: Microfacet { ndf: Ndf::Charlie, .. }, .. }));
-    let (x, y) = if charlie { (x, y) } else { (plain(Parameter::Nov)?, plain(Parameter::Roughness)?) };
+    let charlie =
+        matches!(lut.integrand(), Integrand::Specular(Microfacet { ndf: Ndf::Charlie, .. }, _));
+    let (x, y) =
+        if charlie { (x, y) } else { (plain(Parameter::Nov)?, plain(Parameter::Roughness)?) };
     let request = Request::new(lut, x, y, Accuracy::by_default(&lut, precision), precision)?;
-    let baked = splitsum::bake(&request, backend, &|_| ())?;
-    let format = if precision == Precision::F16 || precision == Precision::F32 { Format::Exr } else { Format::Png };
-    Ok(encode(&[baked.table], format)?)
+    let baked = splitsum::bake(&request, backend)?;
+    let extension =
+        if precision == Precision::F16 || precision == Precision::F32 { "exr" } else { "png" };
+    Ok(encode(&baked.table, Format::of_extension(extension)?)?)
 }
 
 fn on(gpu: &Gpu, tile: Option<usize>) -> Result<Backend, Failed> {
     let options = GpuOptions { device: Some(gpu.info().uuid.clone()), tile, validate: false };
     Ok(Backend::open(BackendChoice::Vulkan, &options)?)
-}
-
-fn ab(lobe: Microfacet) -> Lut {
-    Lut::Dfg(Dfg { lobe, channels: DfgChannels::Ab })
 }
 
 fn the_usual_table_in_any_tiles(gpu: &Gpu) -> Result<(), Failed> {
@@ -59,19 +63,29 @@ fn the_usual_table_in_any_tiles(gpu: &Gpu) -> Result<(), Failed> {
 fn every_lobe(gpu: &Gpu) -> Result<(), Failed> {
     let whole = on(gpu, Some(128 * 128))?;
     for lobe in Microfacet::all() {
-        if file(ab(lobe), 128, Precision::F16, &whole)? != file(ab(lobe), 128, Precision::F16, &Backend::cpu())? {
+        if file(ab(lobe), 128, Precision::F16, &whole)?
+            != file(ab(lobe), 128, Precision::F16, &Backend::cpu())?
+        {
             return Err(format!("{lobe:?}: other bytes").into());
         }
     }
-    // What tiles can change is the device's own values: not a bit of them; tests/vulkan/tables.rs tries more sizes.
+    // What tiles can change is the device's own values: not a bit of them; tests/vulkan/tables.rs
+    // tries more sizes.
     let rule = Rule::named("h640").ok().map(|rule| rule.method);
-    let Some(Method::HSpace(nodes)) = rule else { return Err("no h640".into()) };
-    let grid = Request::with_default_axes(ab(ggx(Masking::HeightCorrelated)), (128, 128), Precision::F16)?.grid()?;
+    let Some(Method::HalfVectors(nodes)) = rule else { return Err("no h640".into()) };
+    let request =
+        Request::with_default_axes(ab(ggx(Masking::HeightCorrelated)), (128, 128), Precision::F16)?;
     for lobe in Microfacet::all() {
-        let values = |tile| -> Result<Vec<[u64; 2]>, Failed> {
-            let options = GpuOptions { device: Some(gpu.info().uuid.clone()), tile: Some(tile), validate: false };
-            let baked = bake(&Gpu::open(&options)?, lobe, &grid, &nodes, &|_| ())?;
-            Ok(baked.integrals.iter().map(|value| [value.a.to_bits(), value.b.to_bits()]).collect())
+        let values = |tile| -> Result<Vec<u64>, Failed> {
+            let options = GpuOptions {
+                device: Some(gpu.info().uuid.clone()),
+                tile: Some(tile),
+                validate: false,
+            };
+            let gpu = Gpu::open(&options)?;
+            let baked = bake(&gpu, (lobe, Fresnel::Schlick), request.grid(), &nodes, &|_| ())?;
+            assert_eq!(baked.integrals.len(), 128 * 128);
+            Ok(baked.integrals.values().iter().map(|value| value.to_bits()).collect())
         };
         let whole = values(128 * 128)?;
         if values(8)? != whole {
@@ -83,7 +97,9 @@ fn every_lobe(gpu: &Gpu) -> Result<(), Failed> {
 
 fn every_precision(gpu: &Gpu) -> Result<(), Failed> {
     let device = on(gpu, None)?;
-    for lut in [ab(ggx(Masking::HeightCorrelated)), ab(ggx(Masking::Joint))] {
+    let smith = ggx(Masking::HeightCorrelated);
+    let tinted = Lut::Dfg(Dfg::new(smith, Fresnel::SchlickF82, DfgChannels::All)?);
+    for lut in [ab(smith), ab(ggx(Masking::HeightCorrelatedApprox)), tinted] {
         for precision in [Precision::F16, Precision::Unorm16, Precision::Unorm8] {
             if file(lut, 48, precision, &device)? != file(lut, 48, precision, &Backend::cpu())? {
                 return Err(format!("{lut:?} in {precision:?}: other bytes").into());
@@ -91,12 +107,16 @@ fn every_precision(gpu: &Gpu) -> Result<(), Failed> {
         }
     }
     // Where a device could decide nothing it is refused, and left alone where there is a choice.
-    for (lut, precision) in
-        [(ab(ggx(Masking::HeightCorrelated)), Precision::F32), (Lut::Diffuse(Diffuse::Burley), Precision::F16)]
-    {
-        let (x, y) = (Axis::new(AxisSpec::of(Parameter::Nov), 8)?, Axis::new(AxisSpec::of(Parameter::Roughness), 8)?);
+    for (lut, precision) in [
+        (ab(ggx(Masking::HeightCorrelated)), Precision::F32),
+        (Lut::Diffuse(Diffuse::Burley), Precision::F16),
+    ] {
+        let (x, y) = (
+            Axis::new(AxisSpec::of(Parameter::Nov), 8)?,
+            Axis::new(AxisSpec::of(Parameter::Roughness), 8)?,
+        );
         let request = Request::new(lut, x, y, Accuracy::by_default(&lut, precision), precision)?;
-        let refused = splitsum::bake(&request, &device, &|_| ());
+        let refused = splitsum::bake(&request, &device);
         if !refused.is_err_and(|error| error.exit_code() == ExitCode::BadInput) {
             return Err(format!("{lut:?} in {precision:?} by a device").into());
         }
@@ -116,7 +136,9 @@ fn within_its_bounds(gpu: &Gpu) -> Result<(), Failed> {
             .collect()
     };
     let (mus, roughnesses) = (spread(96, 7.0), spread(96, 4.0));
-    for lobe in Microfacet::all() {
+    for (lobe, fresnel) in
+        Fresnel::ALL.iter().flat_map(|&fresnel| Microfacet::all().map(move |lobe| (lobe, fresnel)))
+    {
         // f32's numbers, so that device and CPU mean the same points.
         let mut grid = Grid::of(
             mus.iter().map(|&mu| f64::from(mu as f32)).collect(),
@@ -126,19 +148,25 @@ fn within_its_bounds(gpu: &Gpu) -> Result<(), Failed> {
             grid.alphas.retain(|&alpha| alpha >= CHARLIE_LIMIT);
             grid.mus.retain(|&mu| mu >= 1e-4);
         }
-        let truth = cpu::bake(lobe, &grid, &Rule::named("d10240")?, &|_| ());
+        let integrand = Integrand::Specular(lobe, fresnel);
+        let truth = cpu::bake(integrand, &grid, &Rule::named("d10240")?, &|_| ());
         for name in ["h640", "h1536", "h6144"] {
             let rule = Rule::named(name)?;
-            let Method::HSpace(nodes) = rule.method else { return Err(name.into()) };
-            for (i, value) in bake(gpu, lobe, &grid, &nodes, &|_| ())?.integrals.iter().enumerate() {
+            let Method::HalfVectors(nodes) = rule.method else { return Err(name.into()) };
+            let errors = rule.device_errors(integrand);
+            let table = bake(gpu, (lobe, fresnel), &grid, &nodes, &|_| ())?.integrals;
+            assert_eq!((table.len(), table.count()), (grid.len(), fresnel.count()));
+            for (i, (values, truth)) in table.iter().zip(truth.iter()).enumerate() {
                 let (mu, alpha) = grid.point(i);
-                let allowed = rule.device_errors_at(lobe, alpha, *value);
-                let (a, b) = ((value.a - truth[i].a).abs(), (value.b - truth[i].b).abs());
+                let allowed = errors.at(alpha, values);
+                let off: Vec<f64> =
+                    values.iter().zip(truth).map(|(value, truth)| (value - truth).abs()).collect();
                 // Written so that NaN fails.
-                let within = a <= allowed.a && b <= allowed.b;
+                let within = off.iter().zip(allowed).all(|(off, allowed)| *off <= allowed);
                 if !within {
+                    let which = format!("{name} of {lobe:?}, {fresnel}");
                     return Err(
-                        format!("{name} of {lobe:?} at ({mu}, {alpha}) errs by {a:e}, {b:e}: {allowed:?}").into()
+                        format!("{which} at ({mu}, {alpha}) errs by {off:?}: {allowed:?}").into()
                     );
                 }
             }

@@ -1,7 +1,9 @@
-//! A library that poses as libvulkan.so.1, hands every call on to the real one, and makes one function fail.
+//! A library that poses as libvulkan.so.1, hands every call on to the real one, and makes one
+//! function fail.
 //!
-//! SPLITSUM_REAL_LOADER is the path of the real loader. SPLITSUM_FAULT is `FUNCTION=RESULT@CALL`, the VkResult that the
-//! call of that number returns instead of being made; or `vkCmdDispatch=drop`, which leaves out the last workgroup.
+//! SPLITSUM_REAL_LOADER is the path of the real loader. SPLITSUM_FAULT is `FUNCTION=RESULT@CALL`,
+//! the VkResult that the call of that number returns instead of being made; or
+//! `vkCmdDispatch=drop`, which leaves out the last workgroup.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #![allow(unsafe_code, reason = "it stands between two C interfaces")]
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
@@ -17,8 +19,8 @@ unsafe extern "C" {
 
 type GetProcAddr = unsafe extern "C" fn(*mut c_void, *const c_char) -> *mut c_void;
 
-/// Any Vulkan function: those that are made to fail have at most six arguments, all of them integers or pointers, which
-/// the System V convention passes in registers whatever their number.
+/// Any Vulkan function: those that are made to fail have at most six arguments, all of them
+/// integers or pointers, which the System V convention passes in registers whatever their number.
 type Any = unsafe extern "C" fn(usize, usize, usize, usize, usize, usize) -> i32;
 
 struct Fault {
@@ -34,7 +36,11 @@ fn fault() -> &'static Fault {
         let text = std::env::var("SPLITSUM_FAULT").unwrap_or_default();
         let (function, what) = text.split_once('=').unwrap_or(("", "drop"));
         let (result, call) = what.split_once('@').unwrap_or((what, "1"));
-        Fault { function: function.into(), result: result.parse().ok(), call: call.parse().unwrap() }
+        Fault {
+            function: function.into(),
+            result: result.parse().ok(),
+            call: call.parse().unwrap(),
+        }
     })
 }
 
@@ -76,7 +82,10 @@ unsafe extern "C" fn device_proc_addr(device: *mut c_void, name: *const c_char) 
 /// # Safety
 /// As Vulkan says of it.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn vkGetInstanceProcAddr(instance: *mut c_void, name: *const c_char) -> *mut c_void {
+pub unsafe extern "C" fn vkGetInstanceProcAddr(
+    instance: *mut c_void,
+    name: *const c_char,
+) -> *mut c_void {
     static LOADER: OnceLock<usize> = OnceLock::new();
     let loader = *LOADER.get_or_init(|| {
         let path = CString::new(std::env::var("SPLITSUM_REAL_LOADER").unwrap()).unwrap();

@@ -1,5 +1,5 @@
-//! Tests on Vulkan devices: each runs on every device found. Without a device each is reported as ignored, with the
-//! reason; where SPLITSUM_REQUIRE_VULKAN is set, that is a failure instead.
+//! Tests on Vulkan devices: each runs on every device found. Without a device each is reported as
+//! ignored, with the reason; where SPLITSUM_REQUIRE_VULKAN is set, that is a failure instead.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
 
 mod certified;
@@ -15,8 +15,8 @@ mod twins;
 
 use common::missing;
 use libtest_mimic::{Arguments, Failed, Trial};
-use splitsum::backend::vulkan::devices::{DeviceInfo, list_devices};
-use splitsum::backend::vulkan::gpu::{Gpu, GpuOptions};
+use splitsum::backend::device::{DeviceInfo, GpuOptions};
+use splitsum::backend::{Gpu, list_devices};
 
 /// A test of a device.
 type DeviceTest = (&'static str, fn(&Gpu) -> Result<(), Failed>);
@@ -28,18 +28,28 @@ fn on(device: &DeviceInfo, (name, test): DeviceTest) -> Trial {
 
 fn main() {
     let mut arguments = Arguments::from_args();
-    // The tests use every core themselves, and loaders are not at their best when many threads open devices.
+    // The tests use every core themselves, and loaders are not at their best when many threads open
+    // devices.
     arguments.test_threads = Some(1);
-    let tests: Vec<DeviceTest> =
-        [twins::TESTS, sampling_twins::TESTS, stability::TESTS, tables::TESTS, certified::TESTS, previews::TESTS]
-            .concat();
+    let tests: Vec<DeviceTest> = [
+        twins::TESTS,
+        sampling_twins::TESTS,
+        stability::TESTS,
+        tables::TESTS,
+        certified::TESTS,
+        previews::TESTS,
+    ]
+    .concat();
     let mut trials: Vec<Trial> = match list_devices() {
         Ok(devices) if !devices.is_empty() => {
             devices.iter().flat_map(|device| tests.iter().map(|&test| on(device, test))).collect()
         }
         outcome => {
             let reason = outcome.err().map_or("no Vulkan device".into(), |error| error.to_string());
-            tests.iter().map(|(name, _)| missing(format!("no device: {name}"), reason.clone())).collect()
+            tests
+                .iter()
+                .map(|(name, _)| missing(format!("no device: {name}"), reason.clone()))
+                .collect()
         }
     };
     trials.extend(tables::validated());

@@ -1,35 +1,60 @@
-//! Every WGSL function that integrates, alone, on 1,024 arguments, against its f64 twin; and how that is done.
+//! Every WGSL function that integrates, alone, on 1,024 arguments, against its f64 twin; and how
+//! that is done.
 
 use crate::common::{Random, ggx};
 use crate::{DeviceTest, model_twins};
 use libtest_mimic::Failed;
-use splitsum::backend::shader::{lobe_source, quadrature, wgsl};
+use splitsum::backend::Gpu;
 use splitsum::backend::vulkan::bake::node_data;
 use splitsum::backend::vulkan::evaluate::evaluate;
-use splitsum::backend::vulkan::gpu::Gpu;
-use splitsum::integrate::ScaleBias;
-use splitsum::integrate::h_space::{
-    HSpaceNodes, HSpaceRule, View, cut_circle, full_circle, h_space, integrand, radial_weight, ring,
+use splitsum::backend::wgsl::{lobe_source, module};
+use splitsum::brdf::fresnel::{Basis, Schlick, SchlickF82};
+use splitsum::brdf::{Fresnel, Masking, Microfacet, Ndf};
+use splitsum::integrate::Integrals;
+use splitsum::integrate::half_vectors::{
+    HalfVectorNodes, HalfVectorRule, View, cut_circle, full_circle, half_vectors, integrand,
+    radial_weight, ring,
 };
-use splitsum::model::{Masking, Microfacet, Ndf};
-use splitsum::quadrature::slope_map::{MappedSlope, Power, slope_at, slope_complement, slope_interval};
+use splitsum::numeric::quadrature::slope_map::{
+    MappedSlope, Power, slope_at, slope_complement, slope_interval,
+};
 
 pub const TESTS: &[DeviceTest] = &[
     ("functions of models equal their twins", |gpu| {
         let (lobe, nodes) = (ggx(Masking::HeightCorrelated), H288.nodes());
-        let (source, data) = (source(lobe, &nodes), node_data(&nodes));
+        let f82 = Fresnel::SchlickF82.definition().wgsl.0;
+        let source = [&source(lobe, Fresnel::Schlick, &nodes), f82].join("\n");
+        let data = node_data(&nodes);
         model_twins::twins().iter().try_for_each(|twin| compare(gpu, &source, &data, twin))
     }),
-    ("functions of a lobe equal their twins: GGX", |gpu| all(gpu, Ndf::Ggx, Masking::HeightCorrelated, Power::Four)),
-    ("functions of a lobe equal their twins: GGX, p = 2", |gpu| all(gpu, Ndf::Ggx, Masking::Separable, Power::Two)),
+    ("functions of a lobe equal their twins: GGX", |gpu| {
+        all(gpu, Ndf::Ggx, Masking::HeightCorrelated, SCHLICK, Power::Four)
+    }),
+    ("functions of a lobe equal their twins: GGX, p = 2", |gpu| {
+        all(gpu, Ndf::Ggx, Masking::Separable, SCHLICK, Power::Two)
+    }),
+    ("functions of a lobe equal their twins: GGX, F82 tint", |gpu| {
+        all(
+            gpu,
+            Ndf::Ggx,
+            Masking::HeightCorrelated,
+            (Fresnel::SchlickF82, SchlickF82),
+            Power::Four,
+        )
+    }),
     ("functions of a lobe equal their twins: Beckmann", |gpu| {
-        all(gpu, Ndf::Beckmann, Masking::HeightCorrelated, Power::Four)
+        all(gpu, Ndf::Beckmann, Masking::HeightCorrelated, SCHLICK, Power::Four)
     }),
     ("functions of a lobe equal their twins: Blinn-Phong", |gpu| {
-        all(gpu, Ndf::BlinnPhong, Masking::Implicit, Power::Four)
+        all(gpu, Ndf::BlinnPhong, Masking::Implicit, SCHLICK, Power::Four)
     }),
-    ("functions of a lobe equal their twins: Charlie", |gpu| all(gpu, Ndf::Charlie, Masking::Neubelt, Power::Four)),
+    ("functions of a lobe equal their twins: Charlie", |gpu| {
+        all(gpu, Ndf::Charlie, Masking::Neubelt, SCHLICK, Power::Four)
+    }),
 ];
+
+/// A Fresnel model, and the same as a type.
+const SCHLICK: (Fresnel, Schlick) = (Fresnel::Schlick, Schlick);
 
 const COUNT: usize = 1024;
 
@@ -44,8 +69,9 @@ pub struct Twin {
     pub rust: Box<dyn Fn([f64; 4]) -> [f64; 4]>,
     /// Arguments from random numbers.
     pub arguments: fn(&mut Random) -> [f64; 4],
-    /// Ulps that the result may be off, of its own size and of `scale`: about one for each rounding on the longest
-    /// path, and two and a half where a division or a root is one of them, since Vulkan allows that much.
+    /// Ulps that the result may be off, of its own size and of `scale`: about one for each rounding
+    /// on the longest path, and two and a half where a division or a root is one of them, since
+    /// Vulkan allows that much.
     pub ulps: f64,
     /// The size below which errors are counted as absolute.
     pub scale: f64,
@@ -64,23 +90,37 @@ fn sine(mu: f64) -> f64 {
     ((1.0 - mu) * (1.0 + mu)).sqrt()
 }
 
-fn pair(value: ScaleBias) -> [f64; 4] {
-    [value.a, value.b, 0.0, 0.0]
+/// As many numbers as there are weights, and zeros.
+fn filled<const N: usize>(values: [f64; N]) -> [f64; 4] {
+    std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
 }
 
-const H288: HSpaceRule =
-    HSpaceRule { radial: 16, azimuth: 8, radial_horizon: 20, azimuth_horizon: 8, power: Power::Four };
+const H288: HalfVectorRule = HalfVectorRule {
+    radial: 16,
+    azimuth: 8,
+    radial_horizon: 20,
+    azimuth_horizon: 8,
+    power: Power::Four,
+};
 
-fn twins(lobe: Microfacet, nodes: &HSpaceNodes) -> Vec<Twin> {
+fn twins<const N: usize, B: Basis<N>>(
+    lobe: Microfacet,
+    basis: B,
+    nodes: &HalfVectorNodes,
+) -> Vec<Twin> {
     let power = nodes.power;
     let nodes = || nodes.clone();
     let (full, cut, whole, whole_or_mirror) = (nodes(), nodes(), nodes(), nodes());
+    let mirror =
+        move |mu: f64| filled(basis.of_mirror(mu).map(|weight| lobe.smooth_limit(mu) * weight));
     let three = |random: &mut Random| [small(random), small(random), small(random), small(random)];
     vec![
         Twin {
             name: "cosine_visibility, slope_width",
             wgsl: "vec4(cosine_visibility(p.x, p.y, p.z), slope_width(p.z), 0.0, 0.0)",
-            rust: Box::new(move |a| [lobe.cosine_visibility(a[0], a[1], a[2]), lobe.ndf.width(a[2]), 0.0, 0.0]),
+            rust: Box::new(move |a| {
+                [lobe.cosine_visibility(a[0], a[1], a[2]), lobe.ndf.width(a[2]), 0.0, 0.0]
+            }),
             arguments: three,
             ulps: 16.0,
             scale: 0.0,
@@ -111,10 +151,11 @@ fn twins(lobe: Microfacet, nodes: &HSpaceNodes) -> Vec<Twin> {
         },
         Twin {
             name: "slope_at",
-            wgsl: "mapped_as_vector(slope_at(p.x, SlopeInterval(p.y, 1.0 + p.y, p.z, 1.0 - p.y - p.z)))",
+            wgsl: "mapped_as_vector(slope_at(p.x, SlopeInterval(p.y, 1.0 + p.y, p.z, 1.0 - p.y - \
+                   p.z)))",
             rust: Box::new(move |a| {
                 let (w0, minus1) = (a[1], a[2]);
-                let interval = splitsum::quadrature::slope_map::SlopeInterval {
+                let interval = splitsum::numeric::quadrature::slope_map::SlopeInterval {
                     w0,
                     plus0: 1.0 + w0,
                     minus1,
@@ -124,7 +165,8 @@ fn twins(lobe: Microfacet, nodes: &HSpaceNodes) -> Vec<Twin> {
                 [y, dy, 0.0, 0.0]
             }),
             arguments: |random| [unit(random), 0.5 * unit(random), 0.01 + 0.3 * unit(random), 0.0],
-            // The power of a rounding in 1 - w: 2p + 1 = 9 times that of three operations, and two divisions.
+            // The power of a rounding in 1 - w: 2p + 1 = 9 times that of three operations, and two
+            // divisions.
             ulps: 40.0,
             scale: 0.0,
         },
@@ -141,8 +183,10 @@ fn twins(lobe: Microfacet, nodes: &HSpaceNodes) -> Vec<Twin> {
         },
         Twin {
             name: "integrand",
-            wgsl: "vec4(integrand(p.x, p.y, p.z, p.w), 0.0, 0.0)",
-            rust: Box::new(move |a| pair(integrand(View::new(lobe, a[1], a[2]), a[0], a[3]))),
+            wgsl: "filled(integrand(p.x, p.y, p.z, p.w))",
+            rust: Box::new(move |a| {
+                filled(integrand(View::new(lobe, basis, a[1], a[2]), a[0], a[3]))
+            }),
             // v·h = (x + μ) half_secant stays below 1.
             arguments: |random| {
                 let (x, mu) = (unit(random), unit(random));
@@ -157,7 +201,8 @@ fn twins(lobe: Microfacet, nodes: &HSpaceNodes) -> Vec<Twin> {
             wgsl: "full(p.x, p.y, p.z)",
             rust: Box::new(move |a| {
                 let tau = a[2] * a[0] / (1.0 + sine(a[0]));
-                pair(full_circle(View::new(lobe, a[0], a[1]), ring(a[0], sine(a[0]), tau), &full.azimuth))
+                let view = View::new(lobe, basis, a[0], a[1]);
+                filled(full_circle(view, ring(a[0], sine(a[0]), tau), &full.azimuth).0)
             }),
             arguments: |random| [unit(random), small(random), unit(random), 0.0],
             // 8 terms of the integrand; at the horizon x is the difference of two numbers up to 1.
@@ -170,7 +215,8 @@ fn twins(lobe: Microfacet, nodes: &HSpaceNodes) -> Vec<Twin> {
             rust: Box::new(move |a| {
                 let t1 = a[0] / (1.0 + sine(a[0]));
                 let tau = t1 * (1.0 + a[2] * (1.0 / (t1 * t1) - 1.0));
-                pair(cut_circle(View::new(lobe, a[0], a[1]), ring(a[0], sine(a[0]), tau), &cut.azimuth_horizon))
+                let view = View::new(lobe, basis, a[0], a[1]);
+                filled(cut_circle(view, ring(a[0], sine(a[0]), tau), &cut.azimuth_horizon).0)
             }),
             arguments: |random| {
                 let mu = 0.05 + 0.9 * unit(random);
@@ -188,27 +234,27 @@ fn twins(lobe: Microfacet, nodes: &HSpaceNodes) -> Vec<Twin> {
                 [radial_weight(lobe, a[0], a[1], a[2]), density, 0.0, 0.0]
             }),
             arguments: |random| [small(random), unit(random), 3.0 * small(random).max(0.1), 0.0],
-            // An exponent of up to 18 has so many roundings of its own size, and it is an error of the power.
+            // An exponent of up to 18 has so many roundings of its own size, and it is an error of
+            // the power.
             ulps: 90.0,
             scale: 0.0,
         },
         Twin {
-            name: "h_space",
-            wgsl: "vec4(h_space(p.x, p.y, Rule(16u, 8u, 20u, 8u)), 0.0, 0.0)",
-            rust: Box::new(move |a| pair(h_space(lobe, a[0], a[1], &whole))),
+            name: "half_vectors",
+            wgsl: "filled(half_vectors(p.x, p.y, Rule(16u, 8u, 20u, 8u)))",
+            rust: Box::new(move |a| filled(half_vectors(lobe, basis, a[0], a[1], &whole).0)),
             arguments: |random| [unit(random), small(random), 0.0, 0.0],
-            // What f32 arithmetic may add to a rule (integrate::rule::f32_arithmetic) is 1.2e-6; here there are fewer
-            // nodes.
+            // What f32 arithmetic may add to a rule (integrate::rule::f32_arithmetic) is 1.2e-6;
+            // here there are fewer nodes.
             ulps: 7.5,
             scale: 1.0,
         },
         Twin {
-            name: "integrate, mirror",
-            wgsl: "vec4(integrate(p.x, p.y, Rule(16u, 8u, 20u, 8u)), mirror(p.x, smooth_limit(p.x)))",
-            rust: Box::new(move |a| {
-                let mirror = ScaleBias::mirror(a[0], lobe.smooth_limit(a[0]));
-                let value = if a[1] == 0.0 { mirror } else { h_space(lobe, a[0], a[1], &whole_or_mirror) };
-                [value.a, value.b, mirror.a, mirror.b]
+            name: "integrate",
+            wgsl: "filled(integrate(p.x, p.y, Rule(16u, 8u, 20u, 8u)))",
+            rust: Box::new(move |a| match a {
+                [mu, 0.0, ..] => mirror(mu),
+                [mu, alpha, ..] => filled(half_vectors(lobe, basis, mu, alpha, &whole_or_mirror).0),
             }),
             arguments: |random| {
                 let alpha = if unit(random) < 0.3 { 0.0 } else { small(random) };
@@ -218,13 +264,22 @@ fn twins(lobe: Microfacet, nodes: &HSpaceNodes) -> Vec<Twin> {
             scale: 1.0,
         },
         Twin {
+            name: "mirror",
+            wgsl: "filled(mirror(p.x))",
+            rust: Box::new(move |a| mirror(a[0])),
+            arguments: |random| [0.001 + 0.999 * unit(random), 0.0, 0.0, 0.0],
+            ulps: 7.5,
+            scale: 1.0,
+        },
+        Twin {
             name: "add",
-            wgsl: "vec4(sum_of_multiples(p.x), 0.0, 0.0)",
+            wgsl: "filled(sum_of_multiples(p.x))",
             // 1 + 2 + … + 20 times the argument.
             rust: Box::new(|a| {
-                let mut sum = ScaleBias::default();
-                (1..=20).for_each(|i| sum.add(f64::from(i), ScaleBias { a: a[0], b: -a[0] }));
-                pair(sum)
+                let mut sum = Integrals::<N>::zero();
+                let term = std::array::from_fn(|k| if k == 1 { -a[0] } else { a[0] });
+                (1..=20).for_each(|i| sum.add(f64::from(i), term));
+                filled(sum.0)
             }),
             arguments: |random| [unit(random), 0.0, 0.0, 0.0],
             ulps: 12.0,
@@ -234,39 +289,59 @@ fn twins(lobe: Microfacet, nodes: &HSpaceNodes) -> Vec<Twin> {
 }
 
 const HELPERS: &str = "
-fn interval_as_vector(i: SlopeInterval) -> vec4<f32> { return vec4(i.w0, i.plus0, i.minus1, i.width); }
+fn interval_as_vector(i: SlopeInterval) -> vec4<f32> { return vec4(i.w0, i.plus0, i.minus1, \
+i.width); }
 fn mapped_as_vector(m: MappedSlope) -> vec4<f32> { return vec4(m.y, m.dy, 0.0, 0.0); }
 fn ring_as_vector(r: Ring) -> vec4<f32> { return vec4(r.m, r.s, r.secant2, r.half_secant); }
 fn sine(mu: f32) -> f32 { return sqrt((1.0 - mu) * (1.0 + mu)); }
 fn full(mu: f32, alpha: f32, place: f32) -> vec4<f32> {
     let r = ring(mu, sine(mu), place * mu / (1.0 + sine(mu)));
-    return vec4(full_circle(mu, alpha, r, 16u, 8u), 0.0, 0.0);
+    return filled(full_circle(mu, alpha, r, 16u, 8u));
 }
 fn cut(mu: f32, alpha: f32, place: f32) -> vec4<f32> {
     let t1 = mu / (1.0 + sine(mu));
     let r = ring(mu, sine(mu), t1 * (1.0 + place * (1.0 / (t1 * t1) - 1.0)));
-    return vec4(cut_circle(mu, alpha, r, 44u, 8u), 0.0, 0.0);
+    return filled(cut_circle(mu, alpha, r, 44u, 8u));
 }
 fn power_as_vector(x: f32, rest: f32) -> vec4<f32> {
     let parts = power_parts(x, 0.1982421875, rest);
     return vec4(parts.x * (1.0 + parts.y), power_of_two(3.0), logarithm_parts(x));
 }
-fn sum_of_multiples(x: f32) -> vec2<f32> {
-    var sum = Sum(vec2<f32>(0.0), vec2<f32>(0.0));
-    for (var i = 0u; i < 20u; i++) { add(&sum, i, f32(i + 1u) * vec2<f32>(x, -x)); }
+fn sum_of_multiples(x: f32) -> Weights {
+    var sum = Sum(Weights(0.0), Weights(0.0));
+    for (var i = 0u; i < 20u; i++) { add(&sum, i, f32(i + 1u) * alternating(x)); }
     return sum.total + sum.block;
 }
+fn quadrature(mu: f32, alpha: f32, rule: Rule) -> Weights { return half_vectors(mu, alpha, rule); }
 ";
 
-fn all(gpu: &Gpu, ndf: Ndf, masking: Masking, power: Power) -> Result<(), Failed> {
+/// What depends on the number of weights.
+const OF_TWO: &str = "
+fn filled(w: Weights) -> vec4<f32> { return vec4(w, 0.0, 0.0); }
+fn alternating(x: f32) -> Weights { return Weights(x, -x); }
+";
+const OF_THREE: &str = "
+fn filled(w: Weights) -> vec4<f32> { return vec4(w, 0.0); }
+fn alternating(x: f32) -> Weights { return Weights(x, -x, x); }
+";
+
+fn all<const N: usize, B: Basis<N>>(
+    gpu: &Gpu,
+    ndf: Ndf,
+    masking: Masking,
+    (fresnel, basis): (Fresnel, B),
+    power: Power,
+) -> Result<(), Failed> {
     let lobe = Microfacet { ndf, masking };
-    let nodes = HSpaceRule { power, ..H288 }.nodes();
-    twins(lobe, &nodes).iter().try_for_each(|twin| compare(gpu, &source(lobe, &nodes), &node_data(&nodes), twin))
+    let nodes = HalfVectorRule { power, ..H288 }.nodes();
+    let (source, data) = (source(lobe, fresnel, &nodes), node_data(&nodes));
+    twins(lobe, basis, &nodes).iter().try_for_each(|twin| compare(gpu, &source, &data, twin))
 }
 
-fn source(lobe: Microfacet, nodes: &HSpaceNodes) -> String {
-    let lobe = lobe_source(lobe, nodes.power);
-    [&lobe, &quadrature("h_space"), wgsl::INTEGRATE, HELPERS].join("\n")
+fn source(lobe: Microfacet, fresnel: Fresnel, nodes: &HalfVectorNodes) -> String {
+    let lobe = lobe_source(lobe, fresnel, nodes.power);
+    let of_weights = if fresnel.count() == 2 { OF_TWO } else { OF_THREE };
+    [&lobe, module::INTEGRATE, HELPERS, of_weights].join("\n")
 }
 
 pub fn compare(gpu: &Gpu, source: &str, nodes: &[[f32; 2]], twin: &Twin) -> Result<(), Failed> {
@@ -281,7 +356,11 @@ pub fn compare(gpu: &Gpu, source: &str, nodes: &[[f32; 2]], twin: &Twin) -> Resu
             // Written so that NaN fails.
             let close = (got - truth).abs() <= allowed;
             if !close {
-                return Err(format!("{} of {argument:?}: {got:e} for {truth:e}, {allowed:e} allowed", twin.name).into());
+                return Err(format!(
+                    "{} of {argument:?}: {got:e} for {truth:e}, {allowed:e} allowed",
+                    twin.name
+                )
+                .into());
             }
         }
     }

@@ -1,42 +1,9 @@
-//! Which Vulkan devices there are, what they call themselves, and which of them is meant.
+//! The Vulkan devices of the machine: their descriptions, and the choice of one.
 
-use super::gpu::Instance;
+use super::instance::Instance;
+use crate::backend::device::{DeviceInfo, DeviceKind};
 use crate::error::{Complaint, Error, Result};
 use ash::vk;
-use serde::Serialize;
-
-/// What kind of device it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum DeviceKind {
-    /// A card of its own.
-    Discrete,
-    /// Part of the processor.
-    Integrated,
-    /// Lent by a hypervisor.
-    Virtual,
-    /// Software.
-    Cpu,
-    /// Something else.
-    Other,
-}
-
-/// A Vulkan device as it describes itself.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct DeviceInfo {
-    /// Its name.
-    pub name: String,
-    /// Its kind; the default device is the first in the order of kinds.
-    pub kind: DeviceKind,
-    /// Its UUID, which stays the same from run to run.
-    pub uuid: String,
-    /// The driver's name and version.
-    pub driver: String,
-    /// The version of Vulkan.
-    pub api: String,
-    /// Why it cannot bake, if it cannot.
-    pub unusable: Option<String>,
-}
 
 /// A device and the handle behind the description.
 pub(super) struct Found {
@@ -52,11 +19,15 @@ pub fn list_devices() -> Result<Vec<DeviceInfo>> {
     Ok(find(&instance)?.into_iter().map(|found| found.info).collect())
 }
 
-/// The device called `wanted` (a UUID, or a part of the name that no other device shares), or the preferred one.
+/// The device called `wanted` (a UUID, or a part of the name that no other device shares), or the
+/// preferred one.
 pub(super) fn choose(instance: &Instance, wanted: Option<&str>) -> Result<Found> {
     let mut all = find(instance)?;
-    let names =
-        all.iter().map(|found| format!("{} ({})", found.info.name, found.info.uuid)).collect::<Vec<_>>().join(", ");
+    let names = all
+        .iter()
+        .map(|found| format!("{} ({})", found.info.name, found.info.uuid))
+        .collect::<Vec<_>>()
+        .join(", ");
     let complain = |expected: String, got: String, cure: &str| {
         Err(Error::NoDevice(Complaint::new("Vulkan device", expected, got, cure)))
     };
@@ -64,11 +35,13 @@ pub(super) fn choose(instance: &Instance, wanted: Option<&str>) -> Result<Found>
     if let Some(wanted) = wanted {
         let wanted = wanted.to_lowercase();
         let exact = all.iter().any(|found| found.info.uuid == wanted);
-        all.retain(
-            |found| {
-                if exact { found.info.uuid == wanted } else { found.info.name.to_lowercase().contains(&wanted) }
-            },
-        );
+        all.retain(|found| {
+            if exact {
+                found.info.uuid == wanted
+            } else {
+                found.info.name.to_lowercase().contains(&wanted)
+            }
+        });
         if all.len() > 1 {
             return complain(
                 "one device of that name".into(),
@@ -94,18 +67,33 @@ pub(super) fn choose(instance: &Instance, wanted: Option<&str>) -> Result<Found>
 fn find(instance: &Instance) -> Result<Vec<Found>> {
     // SAFETY: the instance is alive.
     let devices = unsafe { instance.raw.enumerate_physical_devices() }.map_err(|result| {
-        Error::NoDevice(Complaint::new("Vulkan devices", "a list of them", format!("{result:?}"), "check the driver"))
+        Error::NoDevice(Complaint::new(
+            "Vulkan devices",
+            "a list of them",
+            format!("{result:?}"),
+            "check the driver",
+        ))
     })?;
-    let mut all: Vec<Found> = devices.into_iter().map(|physical| describe(instance, physical)).collect();
-    all.sort_by_cached_key(|Found { info, .. }| (info.kind, info.name.to_lowercase(), info.uuid.clone()));
+    let mut all: Vec<Found> =
+        devices.into_iter().map(|physical| describe(instance, physical)).collect();
+    all.sort_by_cached_key(|Found { info, .. }| {
+        (info.kind, info.name.to_lowercase(), info.uuid.clone())
+    });
     Ok(all)
 }
 
 fn describe(instance: &Instance, physical: vk::PhysicalDevice) -> Found {
-    // SAFETY: `physical` comes from this instance; the first call only asks for what Vulkan 1.0 has.
+    // SAFETY: `physical` comes from this instance; the first call only asks for what Vulkan 1.0
+    // has.
     let basic = unsafe { instance.raw.get_physical_device_properties(physical) };
-    let version =
-        |v: u32| format!("{}.{}.{}", vk::api_version_major(v), vk::api_version_minor(v), vk::api_version_patch(v));
+    let version = |v: u32| {
+        format!(
+            "{}.{}.{}",
+            vk::api_version_major(v),
+            vk::api_version_minor(v),
+            vk::api_version_patch(v)
+        )
+    };
     let mut id = vk::PhysicalDeviceIDProperties::default();
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
     let mut properties = vk::PhysicalDeviceProperties2::default();
@@ -128,16 +116,20 @@ fn describe(instance: &Instance, physical: vk::PhysicalDevice) -> Found {
         let bytes = name.iter().map(|&c| c as u8).take_while(|&c| c != 0).collect::<Vec<_>>();
         String::from_utf8_lossy(&bytes).trim().to_owned()
     };
-    let driver = format!("{} {}", text(&driver.driver_name), text(&driver.driver_info)).trim().to_owned();
+    let driver =
+        format!("{} {}", text(&driver.driver_name), text(&driver.driver_info)).trim().to_owned();
     // SAFETY: as above.
     let families = unsafe { instance.raw.get_physical_device_queue_family_properties(physical) };
-    let family = families.iter().position(|family| family.queue_flags.contains(vk::QueueFlags::COMPUTE));
+    let family =
+        families.iter().position(|family| family.queue_flags.contains(vk::QueueFlags::COMPUTE));
     let limits = &basic.limits;
     let unusable = if basic.api_version < vk::API_VERSION_1_1 {
         Some(format!("Vulkan {} where 1.1 is needed", version(basic.api_version)))
     } else if family.is_none() {
         Some("no queue with compute".into())
-    } else if limits.max_compute_work_group_invocations < 64 || limits.max_per_stage_descriptor_storage_buffers < 4 {
+    } else if limits.max_compute_work_group_invocations < 64
+        || limits.max_per_stage_descriptor_storage_buffers < 4
+    {
         Some("less than 64 invocations in a workgroup or 4 storage buffers".into())
     } else {
         None

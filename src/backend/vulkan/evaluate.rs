@@ -1,13 +1,14 @@
-//! An expression of WGSL on a device, for one argument after the other: functions alone, to be compared with their twins.
+//! An expression of WGSL on a device, for one argument after the other: functions alone, to be
+//! compared with their twins.
 
 use super::buffer::Buffer;
 use super::gpu::Gpu;
 use super::pipeline::Pipeline;
-use crate::backend::shader::compile;
+use crate::backend::wgsl::compile;
 use crate::error::Result;
 
-/// What `expression`, a vec4 of the argument `p`, is for each of the arguments. `source` defines what it uses, `nodes`
-/// (shaders/rule.wgsl) among it.
+/// Evaluates `expression`, a vec4 of the argument `p`, at each of the arguments. `source` defines
+/// the functions in it, `nodes` (shaders/rule.wgsl) among it.
 pub fn evaluate(
     gpu: &Gpu,
     source: &str,
@@ -29,6 +30,7 @@ pub fn evaluate(
     let input = Buffer::with(gpu, arguments)?;
     let output = Buffer::new(gpu, 16 * arguments.len())?;
     let buffers = [&nodes, &input, &output];
-    Pipeline::new(gpu, &kernel, &buffers)?.run(&[], arguments.len().div_ceil(kernel.workgroup) as u32)?;
+    Pipeline::new(gpu, &kernel, &buffers)?
+        .run(&[], arguments.len().div_ceil(kernel.workgroup) as u32)?;
     Ok(output.read(arguments.len()))
 }

@@ -1,14 +1,15 @@
-//! A compute pipeline bound to its buffers, and how it is run: one submission, one fence, one barrier towards the host.
+//! A compute pipeline bound to its buffers, and how it is run: one submission, one fence, one
+//! barrier towards the host.
 
 use super::buffer::Buffer;
 use super::failed;
 use super::gpu::Gpu;
-use crate::backend::shader::Kernel;
+use crate::backend::wgsl::Kernel;
 use crate::error::{Error, Result};
 use ash::vk;
 use std::time::{Duration, Instant};
 
-/// How long a run took.
+/// The duration of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Elapsed {
     /// From the submission to the fence.
@@ -17,7 +18,7 @@ pub struct Elapsed {
     pub device: Option<f64>,
 }
 
-/// How long a dispatch may take before it is given up: a hundred times what a tile aims at.
+/// The time after which a dispatch is given up: 500 times that of a tile.
 const TIMEOUT: Duration = Duration::from_secs(20);
 
 /// A compiled kernel with its buffers.
@@ -41,7 +42,11 @@ impl<'g, 'b> Pipeline<'g, 'b> {
     /// Compiles `kernel` and binds `buffers` to its bindings 0, 1, … in order.
     pub fn new(gpu: &'g Gpu, kernel: &Kernel, buffers: &'b [&'b Buffer<'g>]) -> Result<Self> {
         if buffers.len() != kernel.buffers as usize {
-            return Err(Error::Internal(format!("{} buffers for {} bindings", buffers.len(), kernel.buffers)));
+            return Err(Error::Internal(format!(
+                "{} buffers for {} bindings",
+                buffers.len(),
+                kernel.buffers
+            )));
         }
         // Whatever is made before a failure is freed by the drop of this.
         let mut this = Pipeline {
@@ -74,24 +79,32 @@ impl<'g, 'b> Pipeline<'g, 'b> {
                 .stage_flags(vk::ShaderStageFlags::COMPUTE)
         };
         let bindings: Vec<_> = (0..kernel.buffers).map(binding).collect();
-        let push =
-            [vk::PushConstantRange::default().stage_flags(vk::ShaderStageFlags::COMPUTE).size(kernel.push_bytes)];
+        let push = [vk::PushConstantRange::default()
+            .stage_flags(vk::ShaderStageFlags::COMPUTE)
+            .size(kernel.push_bytes)];
         let push = if kernel.push_bytes == 0 { &push[..0] } else { &push[..] };
         let module = vk::ShaderModuleCreateInfo::default().code(&kernel.spirv);
         let set_layout = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
         // SAFETY: every structure is valid for its call; naga has validated the shader.
         unsafe {
-            self.module = device.create_shader_module(&module, None).map_err(failed("loading the shader"))?;
-            self.set_layout =
-                device.create_descriptor_set_layout(&set_layout, None).map_err(failed("describing the buffers"))?;
+            self.module =
+                device.create_shader_module(&module, None).map_err(failed("loading the shader"))?;
+            self.set_layout = device
+                .create_descriptor_set_layout(&set_layout, None)
+                .map_err(failed("describing the buffers"))?;
             let layouts = [self.set_layout];
-            let layout = vk::PipelineLayoutCreateInfo::default().set_layouts(&layouts).push_constant_ranges(push);
-            self.layout = device.create_pipeline_layout(&layout, None).map_err(failed("laying out the pipeline"))?;
+            let layout = vk::PipelineLayoutCreateInfo::default()
+                .set_layouts(&layouts)
+                .push_constant_ranges(push);
+            self.layout = device
+                .create_pipeline_layout(&layout, None)
+                .map_err(failed("laying out the pipeline"))?;
             let stage = vk::PipelineShaderStageCreateInfo::default()
                 .stage(vk::ShaderStageFlags::COMPUTE)
                 .module(self.module)
                 .name(c"main");
-            let create = [vk::ComputePipelineCreateInfo::default().stage(stage).layout(self.layout)];
+            let create =
+                [vk::ComputePipelineCreateInfo::default().stage(stage).layout(self.layout)];
             let pipelines = device
                 .create_compute_pipelines(vk::PipelineCache::null(), &create, None)
                 .map_err(|(_, result)| failed("compiling the shader")(result))?;
@@ -102,20 +115,33 @@ impl<'g, 'b> Pipeline<'g, 'b> {
 
     fn bind(&mut self, buffers: &[&Buffer]) -> Result<()> {
         let device = &self.gpu.device;
-        let sizes =
-            [vk::DescriptorPoolSize { ty: vk::DescriptorType::STORAGE_BUFFER, descriptor_count: buffers.len() as u32 }];
+        let sizes = [vk::DescriptorPoolSize {
+            ty: vk::DescriptorType::STORAGE_BUFFER,
+            descriptor_count: buffers.len() as u32,
+        }];
         let pool = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
         let layouts = [self.set_layout];
         let infos: Vec<_> = buffers
             .iter()
-            .map(|buffer| [vk::DescriptorBufferInfo { buffer: buffer.raw, offset: 0, range: buffer.bytes as u64 }])
+            .map(|buffer| {
+                [vk::DescriptorBufferInfo {
+                    buffer: buffer.raw,
+                    offset: 0,
+                    range: buffer.bytes as u64,
+                }]
+            })
             .collect();
         // SAFETY: the buffers outlive this pipeline, which borrows them.
         unsafe {
-            self.descriptors = device.create_descriptor_pool(&pool, None).map_err(failed("creating descriptors"))?;
-            let allocate =
-                vk::DescriptorSetAllocateInfo::default().descriptor_pool(self.descriptors).set_layouts(&layouts);
-            self.set = device.allocate_descriptor_sets(&allocate).map_err(failed("allocating descriptors"))?[0];
+            self.descriptors = device
+                .create_descriptor_pool(&pool, None)
+                .map_err(failed("creating descriptors"))?;
+            let allocate = vk::DescriptorSetAllocateInfo::default()
+                .descriptor_pool(self.descriptors)
+                .set_layouts(&layouts);
+            self.set = device
+                .allocate_descriptor_sets(&allocate)
+                .map_err(failed("allocating descriptors"))?[0];
             let write = |(i, info)| {
                 vk::WriteDescriptorSet::default()
                     .dst_set(self.set)
@@ -123,7 +149,8 @@ impl<'g, 'b> Pipeline<'g, 'b> {
                     .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
                     .buffer_info(info)
             };
-            let writes: Vec<_> = infos.iter().map(|info| &info[..]).enumerate().map(write).collect();
+            let writes: Vec<_> =
+                infos.iter().map(|info| &info[..]).enumerate().map(write).collect();
             device.update_descriptor_sets(&writes, &[]);
         }
         Ok(())
@@ -136,53 +163,94 @@ impl<'g, 'b> Pipeline<'g, 'b> {
             .flags(vk::CommandPoolCreateFlags::RESET_COMMAND_BUFFER);
         // SAFETY: every structure is valid for its call.
         unsafe {
-            self.commands = device.create_command_pool(&pool, None).map_err(failed("creating a command pool"))?;
-            let allocate = vk::CommandBufferAllocateInfo::default().command_pool(self.commands).command_buffer_count(1);
-            self.command = device.allocate_command_buffers(&allocate).map_err(failed("allocating commands"))?[0];
-            self.fence = device.create_fence(&Default::default(), None).map_err(failed("creating a fence"))?;
+            self.commands = device
+                .create_command_pool(&pool, None)
+                .map_err(failed("creating a command pool"))?;
+            let allocate = vk::CommandBufferAllocateInfo::default()
+                .command_pool(self.commands)
+                .command_buffer_count(1);
+            self.command = device
+                .allocate_command_buffers(&allocate)
+                .map_err(failed("allocating commands"))?[0];
+            self.fence = device
+                .create_fence(&Default::default(), None)
+                .map_err(failed("creating a fence"))?;
             if self.gpu.timestamp_mask != 0 {
-                let pool = vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::TIMESTAMP).query_count(2);
-                self.timestamps =
-                    device.create_query_pool(&pool, None).map_err(failed("creating the device's clock"))?;
+                let pool = vk::QueryPoolCreateInfo::default()
+                    .query_type(vk::QueryType::TIMESTAMP)
+                    .query_count(2);
+                self.timestamps = device
+                    .create_query_pool(&pool, None)
+                    .map_err(failed("creating the device's clock"))?;
             }
         }
         Ok(())
     }
 
-    /// Runs `groups` workgroups with the push constants `push`, waits for them, and tells how long they took.
+    /// Runs `groups` workgroups with the push constants `push`, waits for them, and tells how long
+    /// they took.
     pub fn run(&self, push: &[u8], groups: u32) -> Result<Elapsed> {
         use vk::{AccessFlags, PipelineStageFlags};
         let device = &self.gpu.device;
-        let begin = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
-        // What the host wrote is visible to every later submission; what the shader writes is not, without this.
+        let begin = vk::CommandBufferBeginInfo::default()
+            .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+        // What the host wrote is visible to every later submission; what the shader writes is not,
+        // without this.
         let to_host = [vk::MemoryBarrier::default()
             .src_access_mask(AccessFlags::SHADER_WRITE)
             .dst_access_mask(AccessFlags::HOST_READ)];
         let commands = [self.command];
         let submit = [vk::SubmitInfo::default().command_buffers(&commands)];
         let start = Instant::now();
-        // SAFETY: the command buffer is not in use: every run waits for its fence, or the device is lost.
+        // SAFETY: the command buffer is not in use: every run waits for its fence, or the device is
+        // lost.
         unsafe {
             device.begin_command_buffer(self.command, &begin).map_err(failed("recording"))?;
             if self.timestamps != vk::QueryPool::null() {
                 device.cmd_reset_query_pool(self.command, self.timestamps, 0, 2);
-                device.cmd_write_timestamp(self.command, PipelineStageFlags::TOP_OF_PIPE, self.timestamps, 0);
+                device.cmd_write_timestamp(
+                    self.command,
+                    PipelineStageFlags::TOP_OF_PIPE,
+                    self.timestamps,
+                    0,
+                );
             }
             device.cmd_bind_pipeline(self.command, vk::PipelineBindPoint::COMPUTE, self.pipeline);
             let (bind, sets) = (vk::PipelineBindPoint::COMPUTE, [self.set]);
             device.cmd_bind_descriptor_sets(self.command, bind, self.layout, 0, &sets, &[]);
             if !push.is_empty() {
-                device.cmd_push_constants(self.command, self.layout, vk::ShaderStageFlags::COMPUTE, 0, push);
+                device.cmd_push_constants(
+                    self.command,
+                    self.layout,
+                    vk::ShaderStageFlags::COMPUTE,
+                    0,
+                    push,
+                );
             }
             device.cmd_dispatch(self.command, groups, 1, 1);
             if self.timestamps != vk::QueryPool::null() {
-                device.cmd_write_timestamp(self.command, PipelineStageFlags::COMPUTE_SHADER, self.timestamps, 1);
+                device.cmd_write_timestamp(
+                    self.command,
+                    PipelineStageFlags::COMPUTE_SHADER,
+                    self.timestamps,
+                    1,
+                );
             }
             let (from, to) = (PipelineStageFlags::COMPUTE_SHADER, PipelineStageFlags::HOST);
-            device.cmd_pipeline_barrier(self.command, from, to, vk::DependencyFlags::empty(), &to_host, &[], &[]);
+            device.cmd_pipeline_barrier(
+                self.command,
+                from,
+                to,
+                vk::DependencyFlags::empty(),
+                &to_host,
+                &[],
+                &[],
+            );
             device.end_command_buffer(self.command).map_err(failed("recording"))?;
             device.reset_fences(&[self.fence]).map_err(failed("resetting the fence"))?;
-            device.queue_submit(self.gpu.queue, &submit, self.fence).map_err(failed("submitting the work"))?;
+            device
+                .queue_submit(self.gpu.queue, &submit, self.fence)
+                .map_err(failed("submitting the work"))?;
             device
                 .wait_for_fences(&[self.fence], true, TIMEOUT.as_nanos() as u64)
                 .map_err(failed("waiting for the work"))?;
@@ -190,7 +258,7 @@ impl<'g, 'b> Pipeline<'g, 'b> {
         Ok(Elapsed { wall: start.elapsed(), device: self.device_seconds()? })
     }
 
-    /// What lies between the two timestamps of the last run.
+    /// Seconds between the two timestamps of the last run.
     fn device_seconds(&self) -> Result<Option<f64>> {
         if self.timestamps == vk::QueryPool::null() {
             return Ok(None);
@@ -200,7 +268,12 @@ impl<'g, 'b> Pipeline<'g, 'b> {
         unsafe {
             self.gpu
                 .device
-                .get_query_pool_results(self.timestamps, 0, &mut ticks, vk::QueryResultFlags::TYPE_64)
+                .get_query_pool_results(
+                    self.timestamps,
+                    0,
+                    &mut ticks,
+                    vk::QueryResultFlags::TYPE_64,
+                )
                 .map_err(failed("reading the device's clock"))?;
         }
         let ticks = ticks[1].wrapping_sub(ticks[0]) & self.gpu.timestamp_mask;

@@ -4,19 +4,17 @@ use super::bake::node_data;
 use super::buffer::Buffer;
 use super::gpu::Gpu;
 use super::pipeline::Pipeline;
-use crate::backend::shader::Kernel;
+use crate::backend::wgsl::Kernel;
 use crate::error::{Error, Result};
-use crate::integrate::h_space::HSpaceRule;
+use crate::integrate::half_vectors::HalfVectorRule;
 
-/// What a row of spheres needs: see the shader's `Job`.
+/// The input of a row of spheres: see the shader's `Job`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowData {
     /// (α, roughness, means of P1 and P2) for each column.
     pub columns: Vec<[f32; 4]>,
     /// (A, B) over n·v and roughness, a square of texels.
     pub table: Vec<[f32; 2]>,
-    /// The scale and the offset by which n·v becomes a texel, then those of roughness.
-    pub texels: [f32; 4],
     /// Pixels along the edge of a sphere's cell.
     pub cell: usize,
     /// The scene's number.
@@ -24,7 +22,12 @@ pub struct RowData {
 }
 
 /// The pixels of a row in linear R, G, B.
-pub fn render_row(gpu: &Gpu, kernel: &Kernel, row: &RowData, rule: &HSpaceRule) -> Result<Vec<[f64; 3]>> {
+pub fn render_row(
+    gpu: &Gpu,
+    kernel: &Kernel,
+    row: &RowData,
+    rule: &HalfVectorRule,
+) -> Result<Vec<[f64; 3]>> {
     let nodes = Buffer::with(gpu, &node_data(&rule.nodes()))?;
     let columns = Buffer::with(gpu, &row.columns)?;
     let table = Buffer::with(gpu, &row.table)?;
@@ -33,13 +36,15 @@ pub fn render_row(gpu: &Gpu, kernel: &Kernel, row: &RowData, rule: &HSpaceRule) 
     let side = row.table.len().isqrt();
     let job = [row.cell, row.columns.len(), row.scene as usize, side];
     let (job, counts) = (job.map(|n| n as u32), rule.counts().map(|n| n as u32));
-    let push = [job, row.texels.map(f32::to_bits), counts].concat();
+    let push = [job, counts].concat();
     let buffers = [&nodes, &columns, &table, &pixels];
     let groups = count.div_ceil(kernel.workgroup) as u32;
     Pipeline::new(gpu, kernel, &buffers)?.run(bytemuck::cast_slice(&push), groups)?;
     let pixels = pixels.read::<[f32; 4]>(count);
     if pixels.iter().flatten().any(|value| !value.is_finite()) {
-        return Err(Error::CheckFailed("the device left pixels out; use another one, or --backend cpu".into()));
+        return Err(Error::CheckFailed(
+            "the device left pixels out; use another one, or --backend cpu".into(),
+        ));
     }
     Ok(pixels.into_iter().map(|[r, g, b, _]| [r.into(), g.into(), b.into()]).collect())
 }

@@ -13,10 +13,19 @@ pub fn check(arguments: &BakeArgs, jobs: &[Job], depfile: Option<&str>) -> Resul
         files.add("the configuration", config);
     }
     for (name, job) in named(arguments, jobs) {
-        let what = if arguments.config.is_some() { format!("the output of {name}") } else { format!("the {name}") };
+        let what = if arguments.config.is_some() {
+            format!("the output of {name}")
+        } else {
+            format!("the {name}")
+        };
         if let Some(other) = files.add(what, &job.output) {
             let got = format!("{}, which is {other}", job.output);
-            return Err(Error::bad_input(name, "an output of its own", got, "rename one of the two"));
+            return Err(Error::bad_input(
+                name,
+                "an output of its own",
+                got,
+                "rename one of the two",
+            ));
         }
     }
     let Some(depfile) = depfile else { return Ok(()) };
@@ -30,7 +39,8 @@ pub fn check(arguments: &BakeArgs, jobs: &[Job], depfile: Option<&str>) -> Resul
 /// Whether make can read the names in the dependency file.
 fn check_rule(arguments: &BakeArgs, jobs: &[Job]) -> Result<()> {
     let config = arguments.config.as_deref();
-    let of_target = arguments.mt.as_deref().and_then(|target| complain("-MT", target, Side::Target));
+    let of_target =
+        arguments.mt.as_deref().and_then(|target| complain("-MT", target, Side::Target));
     let of_flags = of_target.or_else(|| complain("--config", config?, Side::Dependency));
     if let Some(complaint) = of_flags {
         return Err(Error::Usage(complaint));

@@ -3,13 +3,13 @@
 use super::{Devices, STUDY_BYTES, devices};
 use crate::cli::progress::Progress;
 use crate::cli::{output, print, resources, standard_output};
+use crate::compare::study::Machine;
+use crate::compare::study::bounds::{Finding, Plan, Search, check, everything, search};
 use crate::error::{Error, Result};
-use crate::study::Machine;
-use crate::study::bounds::{Finding, Plan, Search, check, everything, search};
 
 #[derive(clap::Args)]
 pub struct BoundsArgs {
-    /// How long to search; every rule and lobe gets a first round, however short
+    /// Length of the search; every rule and lobe gets a first round, however short
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     seconds: f64,
     /// Seeds the starts of the search
@@ -41,7 +41,9 @@ pub fn run(arguments: &BoundsArgs) -> Result<()> {
     let devices = devices(arguments.device.as_deref(), arguments.cpu)?;
     let progress = Progress::of_work("searching", arguments.quiet);
     let found =
-        search(Plan::of_seconds(seconds, seed), &everything(), &devices.open()?, &|share| progress.reach(share))?;
+        search(Plan::of_seconds(seconds, seed), &everything(), &devices.open()?, &|share| {
+            progress.reach(share)
+        })?;
     drop(progress);
     let page = page(&found, &devices, arguments);
     // What breaks a bound is printed, and no file claims that it holds.
@@ -55,37 +57,57 @@ pub fn run(arguments: &BoundsArgs) -> Result<()> {
 /// Where rules are worst, in tables.
 fn page(found: &Search, devices: &Devices, arguments: &BoundsArgs) -> String {
     let machine: Machine = devices.machine();
-    let names: String = machine.devices.iter().map(|device| format!(", {} ({})", device.name, device.driver)).collect();
+    let names: String = machine
+        .devices
+        .iter()
+        .map(|device| format!(", {} ({})", device.name, device.driver))
+        .collect();
     let worst = found.findings.iter().map(Finding::ratio).fold(0.0, f64::max);
     let mut text = format!(
-        "# How far bounds are from being broken\n\nWritten by `splitsum chart bounds --seconds {} --seed {}` (splitsum {}; the CPU{names}). \
-         For every rule, lobe and channel it climbs towards the largest error over the bound, from starts crowded at every edge and corner \
-         of the domain; the truth is the reference, and the reference's own truth one with half again as many nodes. {} points were tried. \
-         The largest share is {worst:.2}; the command fails where one exceeds 2/3, the margin of 1.5 that every bound keeps.\n\n\
+        "# How far bounds are from being broken\n\nWritten by `splitsum chart bounds --seconds {} \
+         --seed {}` (splitsum {}; the CPU{names}). \
+         For every rule, lobe and channel it climbs towards the largest error over the bound, \
+         from starts crowded at every edge and corner \
+         of the domain; the truth is the reference, and the reference's own truth one with half \
+         again as many nodes. {} points were tried. \
+         The largest share is {worst:.2}; the command fails where one exceeds 2/3, the margin of \
+         1.5 that every bound keeps.\n\n\
          ## The worst place of each rule\n\n{HEAD}",
         arguments.seconds, arguments.seed, machine.version, found.points
     );
     for group in found.findings.chunk_by(|a, b| (a.rule, &a.device) == (b.rule, &b.device)) {
-        for channel in ['A', 'B'] {
-            let of_channel = group.iter().filter(|finding| finding.channel == channel);
-            text += &of_channel.max_by(|a, b| a.ratio().total_cmp(&b.ratio())).map_or(String::new(), row);
+        for integral in INTEGRALS {
+            let of_integral = group.iter().filter(|finding| finding.integral == integral);
+            text += &of_integral
+                .max_by(|a, b| a.ratio().total_cmp(&b.ratio()))
+                .map_or(String::new(), row);
         }
     }
     text += &format!("\n## Every lobe and channel beyond a quarter\n\n{HEAD}");
-    text + &found.findings.iter().filter(|finding| finding.ratio() > SHOWN).map(row).collect::<String>()
+    text + &found
+        .findings
+        .iter()
+        .filter(|finding| finding.ratio() > SHOWN)
+        .map(row)
+        .collect::<String>()
 }
+
+/// The integrals of all Fresnel models.
+const INTEGRALS: [&str; 3] = ["A", "B", "C"];
 
 /// Smaller shares of a bound are left out of the second table.
 const SHOWN: f64 = 0.25;
 
-const HEAD: &str = "| rule | by | lobe | channel | n·v | 1 - n·v | α | error | bound | error/bound |\n\
+const HEAD: &str = "| rule | by | lobe | integral | n·v | 1 - n·v | α | error | bound | \
+                    error/bound |\n\
                     | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
 
 fn row(finding: &Finding) -> String {
-    let Finding { rule, device, lobe, channel, mu, alpha, error, bound } = finding;
+    let Finding { rule, device, lobe, fresnel, integral, mu, alpha, error, bound } = finding;
     let by = device.as_deref().map_or("CPU", |device| device.split(" (").next().unwrap_or(device));
     let (rest, ratio) = (1.0 - mu, finding.ratio());
     format!(
-        "| `{rule}` | {by} | {lobe} | {channel} | {mu:.3e} | {rest:.1e} | {alpha:.3e} | {error:.1e} | {bound:.1e} | {ratio:.2} |\n"
+        "| `{rule}` | {by} | {lobe}, {fresnel} | {integral} | {mu:.3e} | {rest:.1e} | {alpha:.3e} \
+         | {error:.1e} | {bound:.1e} | {ratio:.2} |\n"
     )
 }

@@ -1,35 +1,32 @@
 //! `splitsum chart speed`
 
 use super::{Devices, Saved, StudyArgs, write_drawing};
-use crate::chart::lookup as lookup_chart;
-use crate::chart::size as size_chart;
-use crate::chart::speed::{Against, chart};
+use crate::brdf::Microfacet;
+use crate::choice::Choice;
+use crate::cli::choices::LobeArgs;
 use crate::cli::progress::Progress;
-use crate::cli::table_args::lobe;
 use crate::cli::{output, print};
-use crate::error::{Error, Result};
-use crate::model::Microfacet;
-use crate::precision::Precision;
-use crate::study::lookup::Reading;
-use crate::study::size::Cost;
-use crate::study::speed::{Plan, Speed};
-use crate::study::technique::Technique;
-use crate::study::worst::PRACTICAL;
-use crate::study::{Machine, lookup, size, speed};
-use crate::units::word;
+use crate::compare::chart::lookup as lookup_chart;
+use crate::compare::chart::size as size_chart;
+use crate::compare::chart::speed::{Against, chart};
+use crate::compare::study::lookup::Reading;
+use crate::compare::study::size::Cost;
+use crate::compare::study::speed::{Plan, Speed};
+use crate::compare::study::worst::PRACTICAL;
+use crate::compare::study::{Machine, lookup, size, speed};
+use crate::compare::technique::Technique;
+use crate::error::Result;
+use crate::table::precision::Precision;
 use serde::{Deserialize, Serialize};
 
 #[derive(clap::Args)]
 pub struct SpeedArgs {
-    /// Distribution of normals of the lobe
-    #[arg(long, value_name = "NAME", default_value = "ggx")]
-    model: String,
-    /// Its masking [default: the first that 'bake --help' names for the model]
-    #[arg(long, value_name = "NAME")]
-    masking: Option<String>,
-    /// Texels along either edge of the table that every method bakes, 16 to 512 [default: 128; 64 with --quick]
-    #[arg(long, value_name = "N")]
-    size: Option<usize>,
+    #[command(flatten)]
+    lobe: LobeArgs,
+    /// Texels along either edge of the table that every method bakes, 16 to 512 [default: 128; 64
+    /// with --quick]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(16..=512))]
+    size: Option<u16>,
     #[command(flatten)]
     study: StudyArgs,
 }
@@ -72,7 +69,11 @@ pub fn run(arguments: &SpeedArgs) -> Result<()> {
     write_drawing(&folder, "evaluations", &chart(speed, machine, Against::Evaluations))?;
     write_drawing(&folder, "lookup", &lookup_chart::chart(lookup, lobe, machine))?;
     write_drawing(&folder, "size", &size_chart::chart(size, lobe, machine))?;
-    let tables = [("speed", speed.to_csv()), ("lookup", lookup::to_csv(lookup)), ("size", size::to_csv(size))];
+    let tables = [
+        ("speed", speed.to_csv()),
+        ("lookup", lookup::to_csv(lookup)),
+        ("size", size::to_csv(size)),
+    ];
     for (name, csv) in tables {
         output::write(&format!("{folder}/{name}.csv"), csv.as_bytes())?;
     }
@@ -81,18 +82,25 @@ pub fn run(arguments: &SpeedArgs) -> Result<()> {
 }
 
 /// The pictures, each with what a reader would read off it.
-fn page(Saved { machine, measured: Measured { speed, lookup, size }, .. }: &Saved<Measured>) -> String {
+fn page(
+    Saved { machine, measured: Measured { speed, lookup, size }, .. }: &Saved<Measured>,
+) -> String {
     let picture = |title: &str, name: &str| format!("\n## {title}\n\n![{title}]({name}.png)\n\n");
-    let devices: String =
-        machine.devices.iter().map(|device| format!("; {} ({})", device.name, device.driver)).collect();
+    let devices: String = machine
+        .devices
+        .iter()
+        .map(|device| format!("; {} ({})", device.name, device.driver))
+        .collect();
     let mut text = format!(
-        "# Speed against accuracy\n\nWritten by `splitsum chart speed` (splitsum {}{devices}); the numbers are in the `.csv` and `.json` \
+        "# Speed against accuracy\n\nWritten by `splitsum chart speed` (splitsum {}{devices}); \
+         the numbers are in the `.csv` and `.json` \
          files beside it.\n",
         machine.version
     );
     text += &(picture("Error against time", "speed") + &summary(speed, machine));
     text += &picture("Error against evaluations", "evaluations");
-    text += &(picture("What size a table needs", "lookup") + &sizes_needed(lookup, speed.plan.lobe.into()));
+    text += &(picture("What size a table needs", "lookup")
+        + &sizes_needed(lookup, speed.plan.lobe.into()));
     text += &(picture("Where a device begins to pay", "size") + &devices_that_pay(size));
     text
 }
@@ -102,8 +110,10 @@ fn sizes_needed(readings: &[Reading], lobe: Microfacet) -> String {
     const ERRORS: [f64; 5] = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3];
     let heads = ERRORS.map(|error| format!(" {error:e} |")).concat();
     let mut text = format!(
-        "Errors are those of the albedo E(F0) at the F0 that shows them most, the largest of a search over every cell \
-         and the corner.\n\nKiB of the smallest table whose lookups are nowhere farther off, for perceptual roughness \
+        "Errors are those of the albedo E(F0) at the F0 that shows them most, the largest of a \
+         search over every cell \
+         and the corner.\n\nKiB of the smallest table whose lookups are nowhere farther off, for \
+         perceptual roughness \
          from {} and n·v from {} on\n\n| largest error |{heads}\n| --- |{}\n",
         PRACTICAL.roughness,
         PRACTICAL.nov,
@@ -111,7 +121,13 @@ fn sizes_needed(readings: &[Reading], lobe: Microfacet) -> String {
     );
     for axes in lookup::AXES {
         let cell = |error| match lookup::smallest(readings, axes, error) {
-            Some(r) => format!(" {} ({} x {}, {}) |", r.bytes as f64 / 1024.0, r.size, r.size, word(r.precision)),
+            Some(r) => format!(
+                " {} ({} x {}, {}) |",
+                r.bytes as f64 / 1024.0,
+                r.size,
+                r.size,
+                r.precision.word()
+            ),
             None => " none |".into(),
         };
         text += &format!("| `--x {} --y {}` |{}\n", axes.0, axes.1, ERRORS.map(cell).concat());
@@ -119,18 +135,21 @@ fn sizes_needed(readings: &[Reading], lobe: Microfacet) -> String {
     text + &errors_everywhere(readings) + &corner(lobe)
 }
 
-/// The largest errors over all n·v and roughnesses by size, and of those over the practical domain, as Markdown.
+/// The largest errors over all n·v and roughnesses by size, and of those over the practical domain,
+/// as Markdown.
 fn errors_everywhere(readings: &[Reading]) -> String {
     let half = |axes| readings.iter().filter(move |r| r.has(axes) && r.precision == Precision::F16);
     let sizes: Vec<usize> = half(lookup::CENTRES).map(|r| r.size).collect();
     let heads: String = sizes.iter().map(|size| format!(" {size} x {size} |")).collect();
     let rule = " --- |".repeat(sizes.len());
     let mut text = format!(
-        "\nThe largest error anywhere of tables in half floats; behind the stroke, the largest over that domain\n\n\
+        "\nThe largest error anywhere of tables in half floats; behind the stroke, the largest \
+         over that domain\n\n\
          | axes |{heads}\n| --- |{rule}\n"
     );
     for axes in lookup::AXES {
-        let cells: String = half(axes).map(|r| format!(" {:.3} / {:.4} |", r.everywhere, r.practical)).collect();
+        let cells: String =
+            half(axes).map(|r| format!(" {:.3} / {:.4} |", r.everywhere, r.practical)).collect();
         text += &format!("| `--x {} --y {}` |{cells}\n", axes.0, axes.1);
     }
     text
@@ -140,9 +159,12 @@ fn errors_everywhere(readings: &[Reading]) -> String {
 fn corner(lobe: Microfacet) -> String {
     match lookup::corner(lobe) {
         Some(error) if error > 1e-3 => format!(
-            "\nNo table over n·v and roughness errs by less than {error:.3} near the corner n·v = roughness = 0, whatever \
-             its size: the two limits do not commute. Near it E depends on n·v/α alone, so that every neighbourhood of the \
-             corner holds values that lie {:.3} apart, and whatever is continuous there misses one of them by half of \
+            "\nNo table over n·v and roughness errs by less than {error:.3} near the corner n·v = \
+             roughness = 0, whatever \
+             its size: the two limits do not commute. Near it E depends on n·v/α alone, so that \
+             every neighbourhood of the \
+             corner holds values that lie {:.3} apart, and whatever is continuous there misses \
+             one of them by half of \
              that. A table with the corner's own value at a texel errs by all of it.\n",
             2.0 * error
         ),
@@ -152,7 +174,9 @@ fn corner(lobe: Microfacet) -> String {
 
 fn devices_that_pay(costs: &[Cost]) -> String {
     let line = |(device, from): (&str, Option<usize>)| match from {
-        Some(size) => format!("- {device} bakes faster than the CPU from {size} x {size} on, its start included.\n"),
+        Some(size) => format!(
+            "- {device} bakes faster than the CPU from {size} x {size} on, its start included.\n"
+        ),
         None => format!("- {device} never bakes faster than the CPU.\n"),
     };
     size::pays(costs).into_iter().map(line).collect()
@@ -161,11 +185,8 @@ fn devices_that_pay(costs: &[Cost]) -> String {
 impl SpeedArgs {
     fn plan(&self) -> Result<Plan> {
         let quick = self.study.quick;
-        let size = self.size.unwrap_or(if quick { 64 } else { 128 });
-        if !(16..=512).contains(&size) {
-            return Err(Error::bad_input("size", "16 to 512", size.to_string(), "give a number in that range"));
-        }
-        Ok(Plan { lobe: lobe(&self.model, self.masking.as_deref())?.into(), size, seed: SEED, quick })
+        let size = self.size.unwrap_or(if quick { 64 } else { 128 }).into();
+        Ok(Plan { lobe: self.lobe.lobe()?.into(), size, seed: SEED, quick })
     }
 }
 
@@ -183,14 +204,16 @@ fn measure(plan: Plan, devices: &Devices, progress: &Progress) -> Result<Measure
 /// Errors at which methods are compared.
 const ERRORS: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-5];
 
-/// What a reader of the chart would read off it, as Markdown.
+/// The summary of the chart, as Markdown.
 fn summary(speed: &Speed, machine: &Machine) -> String {
     let cell = |value: Option<f64>| value.map_or("never".into(), |value| format!("{value:.2}"));
-    let times = |ratio: f64| if ratio < 10.0 { format!("{ratio:.1}") } else { format!("{ratio:.0}") };
+    let times =
+        |ratio: f64| if ratio < 10.0 { format!("{ratio:.1}") } else { format!("{ratio:.0}") };
     let heads = ERRORS.map(|error| format!(" {error:e} |")).concat();
     let mut text = format!(
         "{}, {} threads; {}, {} x {}; the baseline took {:.2} ms\n\n\
-         Time of the cheapest step that keeps an error, over the baseline; in brackets, how often ours fits in\n\n\
+         Cheapest time that reaches each error, relative to the baseline; in brackets, how many \
+         times slower than ours\n\n\
          | largest error |{heads}\n| --- |{}\n",
         machine.processor,
         machine.threads,
@@ -202,7 +225,9 @@ fn summary(speed: &Speed, machine: &Machine) -> String {
     );
     let ours = ERRORS.map(|error| {
         let best = speed.cheapest(error, Technique::is_ours);
-        best.map_or(" never |".into(), |m| format!(" {:.3} ({} {}) |", m.ratio, m.technique.name(), m.step))
+        best.map_or(" never |".into(), |m| {
+            format!(" {:.3} ({} {}) |", m.ratio, m.technique.name(), m.step)
+        })
     });
     text += &format!("| ours |{}\n", ours.concat());
     for peer in Technique::all().filter(|technique| !technique.is_ours()) {
@@ -210,7 +235,9 @@ fn summary(speed: &Speed, machine: &Machine) -> String {
             let cells = ERRORS.map(|error| {
                 let at = speed.at_error(peer, error);
                 match (at.peer, at.ours) {
-                    (Some(peer), Some(ours)) => format!(" {} ({}) |", cell(Some(peer)), times(peer / ours)),
+                    (Some(peer), Some(ours)) => {
+                        format!(" {} ({}) |", cell(Some(peer)), times(peer / ours))
+                    }
                     (peer, _) => format!(" {} |", cell(peer)),
                 }
             });

@@ -1,11 +1,11 @@
 //! `splitsum chart stability`
 
 use super::{Saved, StudyArgs, write_drawing};
-use crate::chart::stability::chart;
 use crate::cli::{output, print};
+use crate::compare::chart::stability::chart;
+use crate::compare::study::Machine;
+use crate::compare::study::stability::{Family, Stability, cases, measure};
 use crate::error::{Error, Result};
-use crate::study::Machine;
-use crate::study::stability::{Family, Stability, measure, topics};
 use serde::{Deserialize, Serialize};
 
 #[derive(clap::Args)]
@@ -28,8 +28,10 @@ const CHARTS: [(Family, &str, &str); 4] = [
 ];
 
 pub fn run(StabilityArgs { study }: &StabilityArgs) -> Result<()> {
-    let pictures = CHARTS.iter().flat_map(|(_, name, _)| [format!("{name}.svg"), format!("{name}.png")]);
-    let files: Vec<String> = pictures.chain(["stability.json".into(), "stability.md".into()]).collect();
+    let pictures =
+        CHARTS.iter().flat_map(|(_, name, _)| [format!("{name}.svg"), format!("{name}.png")]);
+    let files: Vec<String> =
+        pictures.chain(["stability.json".into(), "stability.md".into()]).collect();
     let folder = study.folder(&files)?;
     let size = if study.quick { [24, 16] } else { [56, 40] };
     let Saved { machine, measured: Measured { stability }, .. } =
@@ -39,7 +41,8 @@ pub fn run(StabilityArgs { study }: &StabilityArgs) -> Result<()> {
         })?;
     // What is read from a file may be anything.
     if !stability.is_whole() {
-        let (file, expected) = (study.from.as_deref().unwrap_or_default(), "maps with an error for each point");
+        let (file, expected) =
+            (study.from.as_deref().unwrap_or_default(), "maps with an error for each point");
         return Err(Error::bad_input(file, expected, "others", "measure anew"));
     }
     for (family, name, title) in CHARTS {
@@ -54,7 +57,8 @@ pub fn run(StabilityArgs { study }: &StabilityArgs) -> Result<()> {
 /// The pictures with what goes wrong, why, and what is done instead.
 fn page(stability: &Stability, machine: &Machine) -> String {
     let mut text = format!(
-        "# Where formulas and methods fail\n\nWritten by `splitsum chart stability` ({}, {} threads; splitsum {}). Colours are errors \
+        "# Where formulas and methods fail\n\nWritten by `splitsum chart stability` ({}, {} \
+         threads; splitsum {}). Colours are errors \
          from 1e-8 (white) to 1 (dark blue). Every failure and every bound named here is tested.\n",
         machine.processor, machine.threads, machine.version
     );
@@ -63,8 +67,8 @@ fn page(stability: &Stability, machine: &Machine) -> String {
             continue;
         }
         text += &format!("\n## {title}\n\n![{title}]({name}.png)\n");
-        for topic in topics().into_iter().filter(|topic| topic.family() == family) {
-            text += &format!("\n**{}**: {} {}\n", topic.name, topic.about, topic.claim());
+        for case in cases().into_iter().filter(|case| case.family() == family) {
+            text += &format!("\n**{}**: {} {}\n", case.name, case.about, case.claim());
         }
     }
     if !stability.facts.is_empty() {

@@ -1,0 +1,177 @@
+//! From WGSL modules to SPIR-V: the modules of a kernel joined, compiled by naga with every option
+//! spelled out, and the sizes that the host needs read off the result.
+
+use crate::brdf::{Fresnel, Microfacet, Ndf};
+use crate::choice::Choice;
+use crate::error::{Error, Result};
+use crate::numeric::quadrature::slope_map::Power;
+use naga::back::spv;
+use naga::valid::{Capabilities, ShaderStages, SubgroupOperationSet, ValidationFlags, Validator};
+
+/// The WGSL modules that every kernel shares; a model has its own in its definition.
+pub mod module {
+    /// Twin of `numeric::special`.
+    pub const SPECIAL: &str = include_str!("../../shaders/special.wgsl");
+    /// Twin of `brdf::fresnel::schlick`, as far as every Fresnel model takes it.
+    pub const FRESNEL: &str = include_str!("../../shaders/fresnel.wgsl");
+    /// Twin of `brdf::masking`.
+    pub const MASKING: &str = include_str!("../../shaders/masking.wgsl");
+    /// Twin of `numeric::quadrature::slope_map`.
+    pub const SLOPE_MAP: &str = include_str!("../../shaders/slope_map.wgsl");
+    /// The counts and the nodes of a rule.
+    pub const RULE: &str = include_str!("../../shaders/rule.wgsl");
+    /// Twin of `integrate::half_vectors`.
+    pub const HALF_VECTORS: &str = include_str!("../../shaders/half_vectors.wgsl");
+    /// Twin of `backend::cpu`, as far as it takes care of α = 0.
+    pub const INTEGRATE: &str = include_str!("../../shaders/integrate.wgsl");
+    /// The entry point of a bake.
+    pub const BAKE: &str = include_str!("../../shaders/bake.wgsl");
+}
+
+/// A compiled compute shader, and its sizes for the host.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Kernel {
+    /// SPIR-V 1.3 with the entry point `main`.
+    pub spirv: Vec<u32>,
+    /// Invocations in a workgroup.
+    pub workgroup: usize,
+    /// Its storage buffers are bindings 0 to this, exclusive, of set 0.
+    pub buffers: u32,
+    /// Bytes of its push constants.
+    pub push_bytes: u32,
+}
+
+/// The WGSL that integrates a lobe over half vectors.
+pub fn lobe_source(lobe: Microfacet, fresnel: Fresnel, power: Power) -> String {
+    let distribution = lobe.ndf.definition();
+    let (of_mirror, visibility) = lobe.masking.wgsl();
+    let limit = if distribution.becomes_mirror { of_mirror } else { "0.0" };
+    let wgsl = distribution.wgsl;
+    let power = match power {
+        Power::Two => 2,
+        Power::Four => 4,
+    };
+    let glue = format!(
+        "const POWER = {power}u;
+fn slope_width(alpha: f32) -> f32 {{ return {}; }}
+fn slope_end(alpha: f32) -> f32 {{ return {}; }}
+fn slope_density(y2: f32, alpha: f32) -> f32 {{ return {}; }}
+fn projected_area(c: f32, alpha: f32) -> f32 {{ return {}; }}
+fn cosine_visibility(x: f32, mu: f32, alpha: f32) -> f32 {{ return {visibility}; }}
+fn smooth_limit(mu: f32) -> f32 {{ return {limit}; }}
+",
+        wgsl.width, wgsl.slope_end, wgsl.slope_density, wgsl.projected_area
+    );
+    // A distribution may take functions of another's module.
+    let mut models: Vec<&str> = Ndf::ALL.iter().map(|ndf| ndf.definition().wgsl.source).collect();
+    models.dedup();
+    let modules =
+        [module::SPECIAL, module::MASKING, module::RULE, module::SLOPE_MAP, module::HALF_VECTORS];
+    [&models.join("\n"), &modules.join("\n"), &fresnel_source(fresnel), &glue]
+        .map(String::as_str)
+        .join("\n")
+}
+
+/// The WGSL of a Fresnel model: its module, and the type of its weights and integrals.
+fn fresnel_source(fresnel: Fresnel) -> String {
+    let (source, weights) = fresnel.definition().wgsl;
+    let of_type = match fresnel.count() {
+        1 => "f32".into(),
+        count => format!("vec{count}<f32>"),
+    };
+    format!(
+        "{}
+{source}
+alias Weights = {of_type};
+fn fresnel_weights(vh: f32) -> Weights {{ return {weights}(vh); }}
+",
+        module::FRESNEL
+    )
+}
+
+/// The WGSL that writes the integrals of a texel side by side.
+fn store_source(fresnel: Fresnel) -> String {
+    let count = fresnel.count();
+    let components = if count == 1 { vec![""] } else { vec![".x", ".y", ".z", ".w"] };
+    let store = |(k, component): (usize, &&str)| {
+        format!("    integrals[{count}u * texel + {k}u] = value{component};\n")
+    };
+    let stores: String = components.iter().take(count).enumerate().map(store).collect();
+    format!(
+        "@group(0) @binding(3) var<storage, read_write> integrals: array<f32>;
+fn store(texel: u32, value: Weights) {{
+{stores}}}
+"
+    )
+}
+
+/// The kernel that bakes the integrals of a lobe over half vectors.
+pub fn bake_kernel(lobe: Microfacet, fresnel: Fresnel, power: Power) -> Result<Kernel> {
+    kernel(&lobe_source(lobe, fresnel, power), fresnel, "half_vectors")
+}
+
+/// The kernel that bakes the integrals that `function` of a source gives for a texel.
+pub fn kernel(source: &str, fresnel: Fresnel, function: &str) -> Result<Kernel> {
+    let quadrature = format!(
+        "fn quadrature(mu: f32, alpha: f32, rule: Rule) -> Weights {{ return {function}(mu, \
+         alpha, rule); }}"
+    );
+    compile(
+        &[source, &store_source(fresnel), &quadrature, module::INTEGRATE, module::BAKE].join("\n"),
+    )
+}
+
+/// Compiles WGSL whose compute entry point is `main`.
+pub fn compile(source: &str) -> Result<Kernel> {
+    let internal =
+        |what: &str, text: String| Error::Internal(format!("{what} of a shader: {text}"));
+    let module = naga::front::wgsl::parse_str(source)
+        .map_err(|error| internal("parsing", error.emit_to_string(source)))?;
+    // Only what the poorest driver has: no f16, no f64, no subgroups.
+    let info = Validator::new(ValidationFlags::all(), Capabilities::IMMEDIATES)
+        .subgroup_stages(ShaderStages::empty())
+        .subgroup_operations(SubgroupOperationSet::empty())
+        .validate(&module)
+        .map_err(|error| internal("validation", error.emit_to_string(source)))?;
+    let bindings = module.global_variables.iter().filter_map(|(_, variable)| variable.binding);
+    let binding_map: spv::BindingMap = bindings
+        .map(|binding| {
+            let info = spv::BindingInfo {
+                descriptor_set: binding.group,
+                binding: binding.binding,
+                binding_array_size: None,
+            };
+            (binding, info)
+        })
+        .collect();
+    let push =
+        module.global_variables.iter().filter(|(_, v)| v.space == naga::AddressSpace::Immediate);
+    let push_bytes = push.map(|(_, v)| module.types[v.ty].inner.size(module.to_ctx())).sum();
+    let entry = module.entry_points.iter().find(|entry| entry.name == "main");
+    let workgroup = entry.map_or(0, |entry| entry.workgroup_size.iter().product::<u32>());
+    let buffers = binding_map.len() as u32;
+    let options = spv::Options {
+        lang_version: (1, 3),
+        flags: spv::WriterFlags::empty(),
+        fake_missing_bindings: false,
+        binding_map,
+        bounds_check_policies: naga::proc::BoundsCheckPolicies {
+            index: naga::proc::BoundsCheckPolicy::Restrict,
+            buffer: naga::proc::BoundsCheckPolicy::Restrict,
+            image_load: naga::proc::BoundsCheckPolicy::Restrict,
+            binding_array: naga::proc::BoundsCheckPolicy::Restrict,
+        },
+        // Every loop here counts up to a bound that is uniform over the dispatch, and every divisor
+        // is an array's length.
+        force_loop_bounding: false,
+        emit_int_div_checks: false,
+        ..spv::Options::default()
+    };
+    let pipeline = spv::PipelineOptions {
+        shader_stage: naga::ShaderStage::Compute,
+        entry_point: "main".into(),
+    };
+    let spirv = spv::write_vec(&module, &info, &options, Some(&pipeline))
+        .map_err(|error| internal("code generation", error.to_string()))?;
+    Ok(Kernel { spirv, workgroup: workgroup as usize, buffers, push_bytes })
+}

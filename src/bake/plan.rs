@@ -1,0 +1,225 @@
+//! The plan of a bake, made once: its rules, its device, and the reason; what it takes. A bake
+//! carries it out.
+
+use super::{BAND, task};
+use crate::backend::{Backend, Chosen, Gpu};
+use crate::certify::stages;
+use crate::error::{Complaint, Error, Result};
+use crate::integrate::Integrand;
+use crate::integrate::average::average_nodes;
+use crate::integrate::rule::{Method, Rule};
+use crate::request::{Accuracy, Request};
+use std::fmt;
+
+/// A plan for a request.
+#[derive(Clone, Debug)]
+pub struct Plan<'a> {
+    pub(super) request: &'a Request,
+    /// The rules of the CPU: the stages of a certification, or the one rule of a table that is not
+    /// certified.
+    pub(super) rules: Vec<Rule>,
+    /// The device and its rule; none where the CPU does it all.
+    pub(super) device: Option<(&'a Gpu, Rule)>,
+    /// The reason for the device or for the CPU, where there was a choice.
+    pub(super) reason: Option<String>,
+}
+
+/// The tolerance of a device's stage in certification: half of it is f32's, and h640 keeps the rest
+/// for most lobes.
+const DEVICE_STAGE: f64 = 3e-6;
+
+/// The fraction of texels, roughly, that f32 on a device decides and the CPU does not repeat, as
+/// measured for halves on lavapipe.
+const LEFT_TO_DEVICE: f64 = 0.9;
+
+/// Seconds that a thread takes to decide the values of a texel, measured.
+const DECISION: f64 = 40e-9;
+
+/// Bytes besides the table for each texel of a band: the integrals of two stages and of a device,
+/// four of 8 bytes each at the most, its values, and whether it is decided.
+const WORKING_BYTES: usize = 128;
+
+impl<'a> Plan<'a> {
+    /// The plan for a request on a backend; an error where the backend is ruled out.
+    pub fn new(request: &'a Request, backend: &'a Backend) -> Result<Self> {
+        let (device_rule, obstacle) = match device_rule(request) {
+            Ok(rule) => (Some(rule), None),
+            Err(obstacle) => (None, Some(obstacle)),
+        };
+        let rules = rules(request)?;
+        let saved = seconds_saved(request, &rules);
+        let Chosen { gpu, reason } = backend.choose(obstacle, saved)?;
+        Ok(Plan { request, rules, device: gpu.zip(device_rule), reason })
+    }
+
+    /// The rules of the CPU: the stages of a certification, or the one rule of a table that is not
+    /// certified.
+    pub fn rules(&self) -> &[Rule] {
+        &self.rules
+    }
+
+    /// The device and its rule; none where the CPU does it all.
+    pub fn device(&self) -> Option<(&Gpu, Rule)> {
+        self.device
+    }
+
+    /// The reason for the device or for the CPU, where there was a choice.
+    pub fn reason(&self) -> Option<&str> {
+        self.reason.as_deref()
+    }
+
+    /// The approximate time on the CPU's threads, without a device: of the first stage, which
+    /// nearly every value needs alone, and of the decisions.
+    pub fn seconds(&self) -> f64 {
+        let request = self.request;
+        let texels = request.grid().len() + texels_of_averages(request);
+        let first =
+            self.rules.first().map_or(0.0, |rule| rule.seconds(request.lut().integrand(), texels));
+        let slice = first + DECISION * request.grid().len() as f64;
+        request.layout().slice_count() as f64 * slice / rayon::current_num_threads() as f64
+    }
+}
+
+/// Bytes that a bake takes besides the table.
+pub fn working_bytes(request: &Request) -> usize {
+    request.grid().len().min(BAND.max(request.grid().mus.len())) * WORKING_BYTES
+}
+
+/// The rules of the CPU.
+fn rules(request: &Request) -> Result<Vec<Rule>> {
+    let (integrand, grid) = (request.lut().integrand(), request.grid());
+    match request.accuracy() {
+        Accuracy::Rounded | Accuracy::Within(_) => {
+            Ok(stages::rules(&task(request, request.lut(), grid)))
+        }
+        Accuracy::Rule(rule) => Ok(vec![rule]),
+        Accuracy::Tolerance(tolerance) => {
+            let rule = Rule::for_cpu(integrand, tolerance, grid.len());
+            rule.map(|rule| vec![rule])
+                .ok_or_else(|| Error::Internal("no rule for this tolerance".into()))
+        }
+    }
+}
+
+/// The rule by which a device can do the job, or the obstacle.
+fn device_rule(request: &Request) -> std::result::Result<Rule, Complaint> {
+    let integrand = request.lut().integrand();
+    let on_cpu = |what: &str, expected: &str, got: &str| {
+        Err(Complaint::new(what, expected, got, "use --backend cpu"))
+    };
+    if let Integrand::Diffuse(_) = integrand {
+        return on_cpu(
+            "lut",
+            "one that is integrated",
+            "diffuse, whose closed forms the CPU has at once",
+        );
+    }
+    match request.accuracy() {
+        Accuracy::Within(_) => on_cpu(
+            "precision",
+            "one with coarser steps than the f32 in which a device computes",
+            "certified f32, of which a device could decide no value",
+        ),
+        // No rule keeps less than the last, so that rounding must not rule it out.
+        Accuracy::Rounded => {
+            let tolerance = DEVICE_STAGE.max(1.001 * Rule::device_tolerance(integrand));
+            Rule::for_device(integrand, tolerance).map_or_else(too_small, Ok)
+        }
+        Accuracy::Tolerance(tolerance) => {
+            Rule::for_device(integrand, tolerance).map_or_else(too_small, Ok)
+        }
+        Accuracy::Rule(rule) if rule.runs_on_device() => Ok(rule),
+        Accuracy::Rule(rule) => {
+            on_cpu("rule", "one that a device can run, beginning with h", rule.name)
+        }
+    }
+}
+
+fn too_small() -> std::result::Result<Rule, Complaint> {
+    let expected = "one that f32 on a device and its finest rule can keep";
+    Err(Complaint::new("tolerance", expected, "a smaller one", "use --backend cpu"))
+}
+
+/// The approximate CPU time that a device would save.
+fn seconds_saved(request: &Request, rules: &[Rule]) -> f64 {
+    let (integrand, texels) = (request.lut().integrand(), request.grid().len());
+    let share = match (request.accuracy(), rules.first()) {
+        // An interpolant checks every texel of a device.
+        (
+            Accuracy::Rounded | Accuracy::Within(_),
+            Some(Rule { method: Method::Interpolant(_), .. }),
+        ) => 0.0,
+        (Accuracy::Rounded | Accuracy::Within(_), _) => LEFT_TO_DEVICE,
+        (Accuracy::Tolerance(_) | Accuracy::Rule(_), _) => 1.0,
+    };
+    let first = rules.first().map_or(0.0, |rule| rule.seconds(integrand, texels));
+    request.layout().slice_count() as f64 * share * first / rayon::current_num_threads() as f64
+}
+
+/// Texels that the averages of a table are integrated at.
+fn texels_of_averages(request: &Request) -> usize {
+    if request.lut().needs_averages() {
+        request.grid().alphas.len() * average_nodes().len()
+    } else {
+        0
+    }
+}
+
+/// Bytes in words.
+fn in_words(bytes: usize) -> String {
+    match bytes {
+        0..10_240 => format!("{bytes} bytes"),
+        10_240..10_485_760 => format!("{:.0} KiB", bytes as f64 / 1024.0),
+        _ => format!("{:.0} MiB", bytes as f64 / 1024.0 / 1024.0),
+    }
+}
+
+impl fmt::Display for Plan<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let request = self.request;
+        let layout = request.layout();
+        let channels =
+            layout.channels.iter().map(|channel| channel.name).collect::<Vec<_>>().join(", ");
+        write!(f, "table     {} x {}", layout.x.size(), layout.y.size())?;
+        if let Some(slices) = &layout.slices {
+            write!(f, " x {} slices of {}", slices.count(), slices.parameter())?;
+        }
+        writeln!(f, ", {channels} in {}: {}", request.precision(), in_words(request.bytes()))?;
+        match (&self.device, &self.reason) {
+            (None, None) => writeln!(f, "backend   CPU, f64")?,
+            (None, Some(reason)) => writeln!(f, "backend   CPU, f64; not Vulkan: {reason}")?,
+            (Some((gpu, _)), reason) => {
+                let reason = reason.as_ref().map_or(String::new(), |reason| format!("; {reason}"));
+                writeln!(f, "backend   Vulkan, f32: {}{reason}", gpu.info().name)?;
+            }
+        }
+        let device = self.device.iter().map(|(_, rule)| format!("{} on the device", rule.name));
+        let on_cpu = self.rules.iter().map(|rule| rule.name.to_owned());
+        match request.accuracy() {
+            Accuracy::Rounded | Accuracy::Within(_) => {
+                let stages = device.chain(on_cpu).collect::<Vec<_>>().join(", then ");
+                writeln!(f, "certified by {stages}: each decides what the one before leaves")?;
+            }
+            Accuracy::Tolerance(_) | Accuracy::Rule(_) => {
+                let rule = device.chain(on_cpu).next().unwrap_or_default();
+                writeln!(f, "rule      {rule}; not certified")?;
+            }
+        }
+        let threads = rayon::current_num_threads();
+        let time = format!("{} on {threads} threads", duration(self.seconds()));
+        match self.device {
+            Some(_) => writeln!(f, "time      at most {time}: the time without the device")?,
+            None => writeln!(f, "time      about {time}")?,
+        }
+        write!(f, "memory    {} besides the table", in_words(working_bytes(request)))
+    }
+}
+
+/// A time to two digits.
+fn duration(seconds: f64) -> String {
+    match seconds {
+        ..0.1 => format!("{:.1} ms", 1e3 * seconds),
+        ..10.0 => format!("{seconds:.1} s"),
+        _ => format!("{seconds:.0} s"),
+    }
+}

@@ -1,0 +1,76 @@
+//! Flags with a word for each choice: the parser, the help and the completions know all of them.
+
+use crate::brdf::{Diffuse, Fresnel, Masking, Microfacet, Ndf};
+use crate::choice::Choice;
+use crate::error::Result;
+use crate::format::FORMATS;
+use crate::integrate::rules::RULES;
+use crate::lut::EnergyChannels;
+use crate::table::precision::Precision;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+
+/// The parser of a choice.
+pub fn of<C: Choice + Send + Sync>() -> impl TypedValueParser<Value = C> {
+    PossibleValuesParser::new(C::ALL.iter().map(value)).try_map(|word| C::named(&word))
+}
+
+/// The parser of a model's name: a distribution of normals or a diffuse lobe.
+pub fn model() -> impl TypedValueParser<Value = String> {
+    PossibleValuesParser::new(Ndf::ALL.iter().map(value).chain(Diffuse::ALL.iter().map(value)))
+}
+
+/// The parser of channels: those of each Fresnel model, and those of energy.
+pub fn channels() -> impl TypedValueParser<Value = String> {
+    let letters = |fresnel: &Fresnel| {
+        let definition = fresnel.definition();
+        PossibleValue::new(definition.channels)
+            .help(format!("of dfg, {fresnel}: {}", definition.albedo))
+    };
+    let of_dfg = [
+        PossibleValue::new("be").help("of dfg: B and E = A + B, the multiple-scattering packing"),
+        PossibleValue::new("e").help("of dfg: E alone"),
+    ];
+    let of_energy = |channels: &EnergyChannels| {
+        PossibleValue::new(channels.word()).help(format!("of energy: {}", channels.about()))
+    };
+    let all = Fresnel::ALL.iter().map(letters).chain(of_dfg);
+    PossibleValuesParser::new(all.chain(EnergyChannels::ALL.iter().map(of_energy)))
+}
+
+/// The parser of a rule's name.
+pub fn rule() -> impl TypedValueParser<Value = String> {
+    PossibleValuesParser::new(RULES.iter().map(|rule| PossibleValue::new(rule.name)))
+}
+
+/// The parser of a file format.
+pub fn format() -> impl TypedValueParser<Value = String> {
+    PossibleValuesParser::new(FORMATS.iter().map(|format| PossibleValue::new(format.extension)))
+}
+
+/// The parser of a storage: those that a format has.
+pub fn precision() -> impl TypedValueParser<Value = Precision> {
+    let known = FORMATS.iter().flat_map(|format| format.precisions).map(value);
+    PossibleValuesParser::new(known).try_map(|word| Precision::named(&word))
+}
+
+fn value<C: Choice>(choice: &C) -> PossibleValue {
+    PossibleValue::new(choice.word()).help(choice.about())
+}
+
+/// The specular lobe of a command.
+#[derive(clap::Args)]
+pub struct LobeArgs {
+    /// Distribution of normals of the specular lobe
+    #[arg(long, value_name = "NAME", default_value = "ggx", value_parser = of::<Ndf>())]
+    model: Ndf,
+    /// Its masking [default: the first that 'bake --help' names for the model]
+    #[arg(long, value_name = "NAME", value_parser = of::<Masking>())]
+    masking: Option<Masking>,
+}
+
+impl LobeArgs {
+    /// The lobe; an error where the masking has no meaning for the model.
+    pub fn lobe(&self) -> Result<Microfacet> {
+        Microfacet::new(self.model, self.masking)
+    }
+}

@@ -1,0 +1,369 @@
+//! Where rules err most, measured by their bounds: a search that climbs towards the largest
+//! error/bound of every rule, lobe and channel, on the CPU and on devices. Whoever changes a rule
+//! or a bound learns from it what the bound has to be.
+//!
+//! A hunt has one lobe, the rules that are measured against one truth, and the places where each
+//! has been worst. A round tries fresh starts and places near the worst ones, every rule at every
+//! place.
+
+mod places;
+
+use self::places::{Place, Places};
+use super::{Lobe, Share, timed};
+use crate::backend::{Gpu, bake, cpu};
+use crate::brdf::fresnel::Integral;
+use crate::brdf::{Fresnel, Microfacet};
+use crate::choice::Choice;
+use crate::error::{Error, Result};
+use crate::integrate::Integrand;
+use crate::integrate::rule::{MARGIN, Method, Rule};
+use crate::integrate::rules::RULES;
+use crate::table::grid::Grid;
+use std::time::Instant;
+
+/// The length and the starts of a search.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    /// Seeds the starts.
+    pub seed: u64,
+    /// Fresh starts in a round of a hunt.
+    pub starts: usize,
+    /// Steps of each rule and channel in a round.
+    pub steps: usize,
+    /// Rounds of each hunt at the least, one after the other.
+    pub rounds: usize,
+    /// Seconds in all; what is left of them after those rounds goes to the hunts in turn.
+    pub seconds: f64,
+}
+
+/// The largest share of its bound by which a rule was seen to err in a channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// The rule.
+    pub rule: &'static str,
+    /// The device that ran it in f32; none for the CPU in f64.
+    pub device: Option<String>,
+    /// The lobe.
+    pub lobe: Lobe,
+    /// Its Fresnel model.
+    pub fresnel: Fresnel,
+    /// The name of the integral.
+    pub integral: &'static str,
+    /// n·v
+    pub mu: f64,
+    /// α
+    pub alpha: f64,
+    /// The error.
+    pub error: f64,
+    /// Its bound.
+    pub bound: f64,
+}
+
+/// All findings, and the points that were tried.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Search {
+    /// A rule after the other, by the CPU, then by each device.
+    pub findings: Vec<Finding>,
+    /// Points at which rules were held against the truth, every lobe's counted.
+    pub points: usize,
+}
+
+impl Plan {
+    /// A search of this length.
+    pub fn of_seconds(seconds: f64, seed: u64) -> Self {
+        Plan { seed, starts: 192, steps: 12, rounds: 1, seconds }
+    }
+}
+
+impl Finding {
+    /// Error over bound; infinite where the value was no number.
+    pub fn ratio(&self) -> f64 {
+        ratio(self.error, self.bound)
+    }
+
+    /// Whether the bound holds with its margin.
+    pub fn holds(&self) -> bool {
+        self.ratio() <= 1.0 / MARGIN
+    }
+}
+
+/// A lobe with its Fresnel model.
+pub type Specular = (Microfacet, Fresnel);
+
+/// Every rule with every lobe and Fresnel model that it serves for, but for the closed forms, which
+/// are exact.
+pub fn everything() -> Vec<(Specular, Rule)> {
+    let mut all = Vec::new();
+    for &fresnel in Fresnel::ALL {
+        for lobe in Microfacet::all() {
+            let serves = |rule: &Rule| rule.applies_to(Integrand::Specular(lobe, fresnel));
+            all.extend(RULES.into_iter().filter(serves).map(|rule| ((lobe, fresnel), rule)));
+        }
+    }
+    all
+}
+
+/// Searches the rules on the CPU, and those that run there on the devices.
+pub fn search(
+    plan: Plan,
+    rules: &[(Specular, Rule)],
+    devices: &[Gpu],
+    share: Share,
+) -> Result<Search> {
+    let (mut hunts, start) = (hunts(plan.seed, rules, devices), Instant::now());
+    let rounds = plan.rounds * hunts.len();
+    for done in 0.. {
+        let spent = start.elapsed().as_secs_f64();
+        if done >= rounds && spent > plan.seconds {
+            break;
+        }
+        share((done as f64 / rounds as f64).min(spent / plan.seconds).min(1.0));
+        // Whoever has had the fewest rounds of those that each is to have, then whoever has had the
+        // least time.
+        let order = |a: &&mut Hunt, b: &&mut Hunt| a.turn(plan).total_cmp(&b.turn(plan));
+        if let Some(hunt) = hunts.iter_mut().min_by(order) {
+            let (round, seconds) = timed(|| hunt.round(plan));
+            round?;
+            hunt.rounds += 1;
+            hunt.seconds += seconds;
+        }
+    }
+    Ok(found(hunts))
+}
+
+/// Whether every bound holds with its margin: an error that names the worst that does not.
+pub fn check(search: &Search) -> Result<()> {
+    let worst = search.findings.iter().max_by(|a, b| a.ratio().total_cmp(&b.ratio()));
+    match worst.filter(|worst| !worst.holds()) {
+        None => Ok(()),
+        Some(Finding { rule, device, lobe, fresnel, integral, mu, alpha, error, bound }) => {
+            Err(Error::CheckFailed(format!(
+                "{rule} of {lobe}, {fresnel} by {} errs by {error:e} in {integral} at n.v = \
+                 {mu:e}, alpha = {alpha:e}, where {bound:e} is promised, \
+             which has to hold with a margin of {MARGIN}; mend the rule, or raise its bound",
+                device.as_deref().unwrap_or("the CPU")
+            )))
+        }
+    }
+}
+
+/// A hunt for each lobe on the CPU, one for the rule that is measured by another truth, one for the
+/// devices.
+fn hunts<'a>(seed: u64, rules: &[(Specular, Rule)], devices: &'a [Gpu]) -> Vec<Hunt<'a>> {
+    let mut hunts: Vec<Hunt> = Vec::new();
+    for &(lobe, rule) in rules {
+        let runners =
+            std::iter::once(None).chain(devices.iter().filter(|_| rule.runs_on_device()).map(Some));
+        for gpu in runners {
+            let truth = rule.yardstick();
+            let same = |hunt: &&mut Hunt| {
+                hunt.lobe == lobe && hunt.truth == truth && hunt.on_devices == gpu.is_some()
+            };
+            let track = |integral: &Integral| Track {
+                rule,
+                gpu,
+                integral: integral.name,
+                worst: Vec::new(),
+            };
+            let tracks: Vec<Track> = lobe.1.definition().integrals.iter().map(track).collect();
+            match hunts.iter_mut().find(same) {
+                Some(hunt) => hunt.tracks.extend(tracks),
+                None => {
+                    // Odd multiples of a large number keep the hunts' sequences apart.
+                    let places = Places::new(
+                        lobe.0,
+                        seed ^ (2 * hunts.len() as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15),
+                    );
+                    hunts.push(Hunt {
+                        lobe,
+                        truth,
+                        on_devices: gpu.is_some(),
+                        tracks,
+                        places,
+                        points: 0,
+                        rounds: 0,
+                        seconds: 0.0,
+                    });
+                }
+            }
+        }
+    }
+    hunts
+}
+
+fn found(hunts: Vec<Hunt>) -> Search {
+    let mut search = Search::default();
+    for hunt in hunts {
+        search.points += hunt.points;
+        search.findings.extend(hunt.tracks.iter().filter_map(|track| track.finding(hunt.lobe)));
+    }
+    let place = |f: &Finding| (f.device.clone(), RULES.iter().position(|rule| rule.name == f.rule));
+    search.findings.sort_by_key(place);
+    search
+}
+
+/// One lobe, one truth.
+struct Hunt<'a> {
+    lobe: Specular,
+    truth: Rule,
+    on_devices: bool,
+    /// A rule's integrals stand one after the other.
+    tracks: Vec<Track<'a>>,
+    places: Places,
+    points: usize,
+    /// Rounds that it has had, and the seconds that they took.
+    rounds: usize,
+    seconds: f64,
+}
+
+/// An integral by a rule and a backend, and the places where it has been worst.
+struct Track<'a> {
+    rule: Rule,
+    gpu: Option<&'a Gpu>,
+    integral: &'static str,
+    /// The worst places, apart from each other, the worst first.
+    worst: Vec<Worst>,
+}
+
+#[derive(Clone, Copy)]
+struct Worst {
+    place: Place,
+    error: f64,
+    bound: f64,
+}
+
+/// Summits that a track climbs at a time.
+const SUMMITS: usize = 5;
+
+/// Places nearer to each other than this, in the coordinates of [`Place`], are on the same summit:
+/// a decade of n·v is
+/// 0.03.
+const APART: f64 = 0.04;
+
+impl Hunt<'_> {
+    /// Smaller for whoever is to go first.
+    fn turn(&self, plan: Plan) -> f64 {
+        if self.rounds < plan.rounds {
+            self.rounds as f64 - plan.rounds as f64
+        } else {
+            self.seconds
+        }
+    }
+
+    fn round(&mut self, plan: Plan) -> Result<()> {
+        let mut points: Vec<Place> = (0..plan.starts).map(|i| self.places.start(i)).collect();
+        for track in &self.tracks {
+            for step in 0..plan.steps {
+                // Half of the steps are the worst summit's.
+                let summit = if step % 2 == 0 { 0 } else { step / 2 % SUMMITS };
+                if let Some(worst) = track.worst.get(summit).or(track.worst.first()) {
+                    points.push(self.places.near(worst.place));
+                }
+            }
+        }
+        // A device is given a grid: every n·v of a few dozen places with every α.
+        let grid = self.on_devices.then(|| grid_of(&points, &mut self.places));
+        if let Some(grid) = &grid {
+            points = (0..grid.len())
+                .map(|i| grid.point(i))
+                .map(|(mu, alpha)| Place { mu, alpha })
+                .collect();
+        }
+        let pairs: Vec<(f64, f64)> = points.iter().map(|place| (place.mu, place.alpha)).collect();
+        let integrand = Integrand::Specular(self.lobe.0, self.lobe.1);
+        let truth = cpu::bake_points(integrand, &pairs, &self.truth);
+        self.points += points.len();
+        for tracks in self.tracks.chunks_exact_mut(integrand.count()) {
+            let (rule, gpu) = (tracks[0].rule, tracks[0].gpu);
+            let values = match (gpu, &grid, rule.method) {
+                (Some(gpu), Some(grid), Method::HalfVectors(nodes)) => {
+                    bake(gpu, self.lobe, grid, &nodes, &|_| ())?.integrals
+                }
+                _ => cpu::bake_points(integrand, &pairs, &rule),
+            };
+            let errors =
+                if gpu.is_some() { rule.device_errors(integrand) } else { rule.errors(integrand) };
+            for ((&place, truth), values) in points.iter().zip(truth.iter()).zip(values.iter()) {
+                let bounds = errors.at(place.alpha, values);
+                for (k, track) in tracks.iter_mut().enumerate() {
+                    track.tell(Worst {
+                        place,
+                        error: (values[k] - truth[k]).abs(),
+                        bound: bounds[k],
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// n·v and α of [`SIDE`] of the places each.
+fn grid_of(points: &[Place], places: &mut Places) -> Grid {
+    let mut some = |of: fn(&Place) -> f64| -> Vec<f64> {
+        // The last ones are near the worst; half of all are drawn from them.
+        (0..SIDE)
+            .map(|i| of(&points[places.pick(points.len() / (1 + i % 2), points.len())]))
+            .collect()
+    };
+    Grid::of(some(|place| place.mu), some(|place| place.alpha))
+}
+
+/// The number of n·v and of α of a grid for a device.
+const SIDE: usize = 20;
+
+/// Error over bound, 0 of nothing promised; infinite for what is no number.
+fn ratio(error: f64, bound: f64) -> f64 {
+    match error {
+        0.0 => 0.0,
+        _ if error.is_finite() && bound.is_finite() => error / bound,
+        _ if bound.is_finite() => f64::INFINITY,
+        _ => 0.0,
+    }
+}
+
+impl Worst {
+    fn ratio(&self) -> f64 {
+        ratio(self.error, self.bound)
+    }
+}
+
+impl Track<'_> {
+    /// Keeps what is worse than the summit it is on, or than the lowest.
+    fn tell(&mut self, new: Worst) {
+        let share = new.ratio();
+        if share == 0.0
+            || (self.worst.len() >= SUMMITS
+                && self.worst.iter().all(|worst| worst.ratio() >= share))
+        {
+            return;
+        }
+        if self
+            .worst
+            .iter()
+            .any(|worst| worst.place.near(new.place, APART) && worst.ratio() >= share)
+        {
+            return;
+        }
+        self.worst.retain(|worst| !worst.place.near(new.place, APART));
+        let at = self.worst.partition_point(|worst| worst.ratio() >= share);
+        self.worst.insert(at, new);
+        self.worst.truncate(SUMMITS);
+    }
+
+    fn finding(&self, (lobe, fresnel): Specular) -> Option<Finding> {
+        let &Worst { place: Place { mu, alpha }, error, bound } = self.worst.first()?;
+        let device = self.gpu.map(|gpu| gpu.info().name.clone());
+        Some(Finding {
+            rule: self.rule.name,
+            device,
+            lobe: lobe.into(),
+            fresnel,
+            integral: self.integral,
+            mu,
+            alpha,
+            error,
+            bound,
+        })
+    }
+}

@@ -1,0 +1,138 @@
+//! Places of the domain, crowded at every edge and corner and where rules change, and steps from
+//! one to the next.
+
+use crate::brdf::Microfacet;
+use crate::integrate::interpolant::SMOOTHEST;
+use crate::integrate::rule::CHARLIE_LIMIT;
+use crate::units::{SMALLEST_ALPHA, SMALLEST_COSINE};
+
+/// A point of the domain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// n·v
+    pub mu: f64,
+    /// α
+    pub alpha: f64,
+}
+
+/// Draws places.
+pub struct Places {
+    random: Random,
+    /// n·v = 0, or the smallest above it where the lobe has no albedo there.
+    least_mu: f64,
+}
+
+/// 1 - p at the upper end of a coordinate, apart from p = 1 itself: the last number below 1.
+const GAP: f64 = 1.2e-16;
+
+/// p at the coordinate c: -1 is `least` and 1 the last number below 1, both ends crowded by the
+/// logarithm; beyond them lie the edges `edge` and 1.
+fn value(c: f64, least: f64, edge: f64) -> f64 {
+    match c {
+        ..=-1.0 => edge,
+        1.0.. => 1.0,
+        ..0.0 => (0.5 * libm::pow(2.0 * least, -c)).max(least),
+        _ => 1.0 - 0.5 * libm::pow(2.0 * GAP, c),
+    }
+}
+
+/// The inverse of [`value`]; -1.02 and 1.02 on the edges.
+fn coordinate(p: f64, least: f64) -> f64 {
+    match p {
+        _ if p < least => -1.02,
+        1.0.. => 1.02,
+        ..0.5 => -libm::log(2.0 * p) / libm::log(2.0 * least),
+        _ => libm::log(2.0 * (1.0 - p)) / libm::log(2.0 * GAP),
+    }
+}
+
+impl Place {
+    fn coordinates(self) -> [f64; 2] {
+        [coordinate(self.mu, SMALLEST_COSINE), coordinate(self.alpha, SMALLEST_ALPHA)]
+    }
+
+    /// Whether another place is within a distance along both coordinates.
+    pub fn near(self, other: Place, distance: f64) -> bool {
+        let ([x, y], [u, v]) = (self.coordinates(), other.coordinates());
+        (x - u).abs() < distance && (y - v).abs() < distance
+    }
+}
+
+impl Places {
+    /// The places of a lobe's domain.
+    pub fn new(lobe: Microfacet, seed: u64) -> Self {
+        Places {
+            random: Random(seed),
+            least_mu: if lobe.diverges_at_grazing() { SMALLEST_COSINE } else { 0.0 },
+        }
+    }
+
+    fn at(&self, x: f64, y: f64) -> Place {
+        Place {
+            mu: value(x, SMALLEST_COSINE, self.least_mu),
+            alpha: value(y, SMALLEST_ALPHA, SMALLEST_ALPHA),
+        }
+    }
+
+    fn within(&self, mu: f64, alpha: f64) -> Place {
+        let mu = if mu < SMALLEST_COSINE { self.least_mu } else { mu.min(1.0) };
+        Place { mu, alpha: alpha.clamp(SMALLEST_ALPHA, 1.0) }
+    }
+
+    /// The i-th start: crowded at all edges, spread like a table's texels, or where the integrals
+    /// have a layer or rules a limit.
+    pub fn start(&mut self, i: usize) -> Place {
+        // A fortieth of the coordinates lies beyond either end: on the edge itself.
+        let (x, y) = (self.random.between(-1.05, 1.05), self.random.between(-1.05, 1.05));
+        let (u, r) = (self.random.next(), self.random.next());
+        let (crowded, few) = (self.at(x, y), libm::exp10(self.random.between(-3.0, 3.0)));
+        match i % 8 {
+            0..3 => crowded,
+            3 => self.within(u, r * r),
+            4 => self.within(crowded.mu, r * r),
+            // n·v ~ α, where shadows begin; n·v ~ √α, where Charlie's ring touches the horizon; sin
+            // θ_v ~ α, where a lobe stands around the normal.
+            5 if u < 0.5 => self.within(crowded.alpha * few, crowded.alpha),
+            5 => self.within(crowded.alpha.sqrt() * few, crowded.alpha),
+            6 => self.within(1.0 - (crowded.alpha * few) * (crowded.alpha * few), crowded.alpha),
+            _ => {
+                let limit = if r < 0.5 { CHARLIE_LIMIT } else { SMOOTHEST * SMOOTHEST };
+                let off = libm::exp10(self.random.between(-12.0, -1.0));
+                self.within(crowded.mu, limit * (1.0 + off.copysign(u - 0.5)))
+            }
+        }
+    }
+
+    /// A step from a place: of any length from 1e-6 to 0.3 of the coordinates, along either or
+    /// both.
+    pub fn near(&mut self, place: Place) -> Place {
+        let [x, y] = place.coordinates();
+        let length = libm::exp10(self.random.between(-6.0, -0.5));
+        let (dx, dy) = (self.random.between(-length, length), self.random.between(-length, length));
+        match (3.0 * self.random.next()) as usize {
+            0 => Place { mu: self.at(x + dx, y).mu, ..place },
+            1 => Place { alpha: self.at(x, y + dy).alpha, ..place },
+            _ => self.at(x + dx, y + dy),
+        }
+    }
+
+    /// A whole number of [from, to).
+    pub fn pick(&mut self, from: usize, to: usize) -> usize {
+        (from + (self.random.next() * (to - from) as f64) as usize).min(to - 1)
+    }
+}
+
+/// Numbers in [0, 1): Knuth's linear congruential generator, its upper 53 bits.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn between(&mut self, from: f64, to: f64) -> f64 {
+        from + (to - from) * self.next()
+    }
+}

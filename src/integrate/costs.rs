@@ -1,0 +1,84 @@
+//! The cost of a rule, by which the cheapest is chosen.
+
+use super::Integrand;
+use super::rule::{Method, Rule};
+use crate::brdf::{Masking, Microfacet, Ndf};
+
+/// Nanoseconds for an evaluation of the integrand on one thread of a server processor with AVX-512
+/// (that of BENCHMARKS.md). The ratios decide between rules; the sums decide whether a device pays.
+struct Costs {
+    /// Over half vectors; with Smith's term, which is taken at every evaluation there, and with
+    /// another.
+    half_vectors: f64,
+    half_vectors_without_smith: f64,
+    /// Double exponential.
+    double_exponential: f64,
+}
+
+const fn costs(ndf: Ndf) -> Costs {
+    let [half_vectors, half_vectors_without_smith, double_exponential] = match ndf {
+        Ndf::Ggx => [2.0, 2.0, 2.0],
+        Ndf::Beckmann => [30.0, 2.0, 6.0],
+        Ndf::BeckmannWalter => [9.0, 9.0, 8.0],
+        Ndf::BlinnPhong => [30.0, 2.0, 8.0],
+        Ndf::Charlie => [90.0, 2.0, 20.0],
+    };
+    Costs { half_vectors, half_vectors_without_smith, double_exponential }
+}
+
+/// Nanoseconds for an evaluation over directions of light.
+const LIGHT_DIRECTIONS: f64 = 2.0;
+
+/// Nanoseconds for a term of a polynomial in n·v.
+const POLYNOMIAL_TERM: f64 = 0.5;
+
+/// Nanoseconds for a diffuse lobe's closed form.
+const CLOSED_FORM: f64 = 50.0;
+
+impl Rule {
+    /// Evaluations of the integrand for a table of `texels`; of the double exponential rules for a
+    /// lobe without breaks.
+    pub fn evaluations(&self, texels: usize) -> usize {
+        match self.method {
+            Method::HalfVectors(rule) => texels * rule.evaluations(),
+            Method::LightDirections(rule) => texels * rule.evaluations(),
+            Method::DoubleExponential(rule) => texels * rule.evaluations(),
+            Method::Interpolant(rule) => rule.len() * rule.source.evaluations(),
+            Method::ClosedForm => texels,
+        }
+    }
+
+    /// The approximate time that a table of `texels` takes on one thread.
+    pub fn seconds(&self, integrand: impl Into<Integrand>, texels: usize) -> f64 {
+        let Integrand::Specular(lobe, _) = integrand.into() else {
+            return 1e-9 * CLOSED_FORM * texels as f64;
+        };
+        let costs = costs(lobe.ndf);
+        let evaluation = match self.method {
+            Method::HalfVectors(_) if has_smith(lobe) => costs.half_vectors,
+            Method::HalfVectors(_) => costs.half_vectors_without_smith,
+            Method::DoubleExponential(_) => costs.double_exponential,
+            Method::LightDirections(_) | Method::Interpolant(_) | Method::ClosedForm => {
+                LIGHT_DIRECTIONS
+            }
+        };
+        let polynomials = match self.method {
+            Method::Interpolant(rule) => POLYNOMIAL_TERM * (rule.directions * texels) as f64,
+            Method::HalfVectors(_)
+            | Method::LightDirections(_)
+            | Method::DoubleExponential(_)
+            | Method::ClosedForm => 0.0,
+        };
+        1e-9 * (evaluation * self.evaluations(texels) as f64 + polynomials)
+    }
+}
+
+fn has_smith(lobe: Microfacet) -> bool {
+    match lobe.masking {
+        Masking::HeightCorrelated | Masking::Separable => true,
+        Masking::HeightCorrelatedApprox
+        | Masking::SchlickSmith
+        | Masking::Implicit
+        | Masking::Neubelt => false,
+    }
+}

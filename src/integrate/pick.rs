@@ -1,0 +1,95 @@
+//! Picks a rule: by its name, or the cheapest that keeps a tolerance.
+
+use super::Integrand;
+use super::errors::f32_arithmetic;
+use super::rule::{Method, Rule};
+use super::rules::{FINER_REFERENCE, REFERENCE, RULES};
+use crate::error::{Error, Result};
+
+impl Rule {
+    /// The rule called `name`.
+    pub fn named(name: &str) -> Result<Rule> {
+        let known = || RULES.map(|rule| rule.name).join(", ");
+        RULES.into_iter().find(|rule| rule.name == name).ok_or_else(|| {
+            Error::bad_input(
+                "rule",
+                format!("one of {}", known()),
+                format!("'{name}'"),
+                "name one of these",
+            )
+        })
+    }
+
+    /// The cheapest rule for a device whose error, with that of f32, stays within `tolerance`.
+    pub fn for_device(integrand: impl Into<Integrand>, tolerance: f64) -> Option<Rule> {
+        let integrand = integrand.into();
+        let largest = tolerance - f32_arithmetic(integrand);
+        Rule::cheapest(integrand, 1, |rule| {
+            rule.runs_on_device() && rule.bound(integrand) <= largest
+        })
+    }
+
+    /// The cheapest rule for the CPU whose error on a table of `texels` stays within `tolerance`.
+    pub fn for_cpu(integrand: impl Into<Integrand>, tolerance: f64, texels: usize) -> Option<Rule> {
+        let integrand = integrand.into();
+        Rule::cheapest(integrand, texels, |rule| rule.bound(integrand) <= tolerance)
+    }
+
+    /// The cheapest rule for the CPU that decides how nearly every value of a table of `texels`
+    /// rounds.
+    pub fn for_rounding(integrand: impl Into<Integrand>, texels: usize) -> Option<Rule> {
+        // Halves lie 5e-4 to 1e-3 of their value apart: a relative error of 1e-5 leaves at most one
+        // value in 25 undecided. Without a relative bound nearly every small value would be.
+        const RELATIVE: f64 = 1e-5;
+        let integrand = integrand.into();
+        let serves = |rule: &Rule| {
+            // At α = 1, above the limit below which Charlie's bounds are wider.
+            rule.method == Method::ClosedForm || rule.bounds_at(integrand, 1.0).relative < RELATIVE
+        };
+        Rule::cheapest(integrand, texels, serves)
+    }
+
+    fn cheapest(
+        integrand: Integrand,
+        texels: usize,
+        serves: impl Fn(&Rule) -> bool,
+    ) -> Option<Rule> {
+        let candidates =
+            RULES.into_iter().filter(|rule| rule.applies_to(integrand) && serves(rule));
+        candidates
+            .min_by(|a, b| a.seconds(integrand, texels).total_cmp(&b.seconds(integrand, texels)))
+    }
+
+    /// The smallest bound among the rules for devices, in exact arithmetic; 0 of closed forms,
+    /// which need no rule.
+    pub fn sharpest_device_bound(integrand: impl Into<Integrand>) -> f64 {
+        let integrand = integrand.into();
+        if let Integrand::Diffuse(_) = integrand {
+            return 0.0;
+        }
+        let bounds =
+            RULES.iter().filter(|rule| rule.runs_on_device()).map(|rule| rule.bound(integrand));
+        bounds.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The smallest tolerance that f32 on a device keeps.
+    pub fn device_tolerance(integrand: impl Into<Integrand>) -> f64 {
+        let integrand = integrand.into();
+        Rule::sharpest_device_bound(integrand) + f32_arithmetic(integrand)
+    }
+
+    /// The smallest bound of all rules.
+    pub fn sharpest_bound(integrand: impl Into<Integrand>) -> f64 {
+        let integrand = integrand.into();
+        RULES.iter().map(|rule| rule.bound(integrand)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The rule that a table by this one is measured against.
+    pub fn yardstick(&self) -> Rule {
+        match self.method {
+            Method::ClosedForm => *self,
+            Method::DoubleExponential(_) if self.name == REFERENCE.name => FINER_REFERENCE,
+            _ => REFERENCE,
+        }
+    }
+}

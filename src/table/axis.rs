@@ -1,0 +1,325 @@
+//! An axis of a table: a parameter, its mapping and its nodes. The only half-texel arithmetic in
+//! the crate.
+//!
+//! Texel i of N lies at t = (i + offset)/N (centres: offset ½) or t = i/(N-1) (edges), clamped to
+//! [0, 1]; a flipped axis counts its texels from the other end; the mapping carries t to the
+//! parameter.
+
+use crate::choice::{Choice, choice};
+use crate::error::{Error, Result};
+use crate::units::{Alpha, Cosine, F0, PerceptualRoughness};
+use std::fmt;
+use std::ops::RangeInclusive;
+use std::str::FromStr;
+
+/// The largest number of texels along an axis.
+pub const LARGEST_SIZE: usize = 16384;
+
+/// The quantity that varies along an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// μ = n·v, the cosine to the view.
+    Nov,
+    /// Perceptual roughness r, α = r².
+    Roughness,
+    /// α itself.
+    Alpha,
+    /// The exponent n of Blinn-Phong, from 1 to 1e7: n = 10^(7p), α² = 2/(n+2).
+    Exponent,
+    /// Reflectance at normal incidence, from slice to slice.
+    F0,
+}
+
+choice!(Parameter, "axis", {
+    Nov = "nov", "n.v, the cosine to the view";
+    Roughness = "roughness", "perceptual roughness, alpha = roughness^2";
+    Alpha = "alpha", "the width of the distribution of normals";
+    Exponent = "exponent", "n = 10^(7p), Blinn-Phong's";
+    F0 = "f0", "reflectance at normal incidence, from slice to slice";
+});
+
+/// The mapping from a position t in [0, 1] along the axis to the parameter p in [0, 1].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mapping {
+    /// p = t
+    Linear,
+    /// t = √p, so p = t²: more texels at small p.
+    Sqrt,
+    /// t = √(1-p), so p = 1 - t²: t = 0 at p = 1.
+    SqrtComplement,
+}
+
+choice!(Mapping, "axis", {
+    Linear = "linear", "p = t";
+    Sqrt = "sqrt", "t = sqrt(p)";
+    SqrtComplement = "sqrt-complement", "t = sqrt(1-p)";
+});
+
+/// The positions of the texels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Nodes {
+    /// t = i/(N-1); with one texel t = 0.
+    Edges,
+    /// t = (i + offset)/N; ½ is texel centres.
+    Offset(f64),
+}
+
+/// An axis without its size, as the words `nov,sqrt,edges,flip` describe it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxisSpec {
+    /// The quantity that varies.
+    pub parameter: Parameter,
+    /// Its mapping.
+    pub mapping: Mapping,
+    /// The positions of the texels.
+    pub nodes: Nodes,
+    /// Whether texel 0 is the far end.
+    pub flip: bool,
+    /// Parameters below this are raised to it.
+    pub min: f64,
+}
+
+/// An axis of a table: every texel's parameter is in its range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    spec: AxisSpec,
+    size: usize,
+}
+
+impl AxisSpec {
+    /// Linear, texel centres.
+    pub const fn of(parameter: Parameter) -> Self {
+        AxisSpec {
+            parameter,
+            mapping: Mapping::Linear,
+            nodes: Nodes::Offset(0.5),
+            flip: false,
+            min: 0.0,
+        }
+    }
+}
+
+impl Axis {
+    /// Checks size and parameter range at every texel.
+    pub fn new(spec: AxisSpec, size: usize) -> Result<Self> {
+        if !(1..=LARGEST_SIZE).contains(&size) {
+            return Err(Error::bad_input(
+                "size",
+                format!("1 to {LARGEST_SIZE} texels along each axis"),
+                size.to_string(),
+                "give a size in that range",
+            ));
+        }
+        let offset = match spec.nodes {
+            Nodes::Edges => 0.0,
+            Nodes::Offset(offset) => offset,
+        };
+        // NaN is in no range.
+        if !(OFFSETS.contains(&offset) && (0.0..=1.0).contains(&spec.min)) {
+            let got = format!("'{spec}'");
+            return Err(Error::bad_input("axis", AXIS_WORDS, got, "use those words"));
+        }
+        let axis = Axis { spec, size };
+        for i in 0..size {
+            let value = axis.value(i);
+            let checked = match spec.parameter {
+                Parameter::Nov => Cosine::new(value).map(drop),
+                Parameter::Roughness => PerceptualRoughness::new(value).map(drop),
+                Parameter::Alpha => Alpha::new(value).map(drop),
+                // The same range: p in [0, 1] is every exponent from 1 to 1e7.
+                Parameter::Exponent | Parameter::F0 => F0::new(value).map(drop),
+            };
+            checked.map_err(|error| match error {
+                Error::BadInput(mut complaint) => {
+                    complaint.what = format!("{} at texel {i} of axis '{spec}'", complaint.what);
+                    complaint.cure = "choose other nodes, or raise the axis's min".into();
+                    Error::BadInput(complaint)
+                }
+                other => other,
+            })?;
+        }
+        Ok(axis)
+    }
+
+    /// Parameter, mapping and nodes.
+    pub fn spec(&self) -> AxisSpec {
+        self.spec
+    }
+
+    /// The number of texels.
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// The parameter at texel `i`.
+    pub fn value(&self, i: usize) -> f64 {
+        let i = if self.spec.flip { self.size - 1 - i } else { i } as f64;
+        let t = match self.spec.nodes {
+            Nodes::Edges => i / (self.size as f64 - 1.0).max(1.0),
+            Nodes::Offset(offset) => (i + offset) / self.size as f64,
+        }
+        .clamp(0.0, 1.0);
+        let p = match self.spec.mapping {
+            Mapping::Linear => t,
+            Mapping::Sqrt => t * t,
+            Mapping::SqrtComplement => (1.0 - t) * (1.0 + t),
+        };
+        p.max(self.spec.min)
+    }
+
+    /// The fractional texel at which the parameter is `p`: the inverse of [`Axis::value`] where
+    /// that does not clamp.
+    pub fn texel(&self, p: f64) -> f64 {
+        let t = match self.spec.mapping {
+            Mapping::Linear => p,
+            Mapping::Sqrt => p.max(0.0).sqrt(),
+            Mapping::SqrtComplement => (1.0 - p).max(0.0).sqrt(),
+        };
+        let i = match self.spec.nodes {
+            Nodes::Edges => t * (self.size as f64 - 1.0).max(1.0),
+            Nodes::Offset(offset) => t * self.size as f64 - offset,
+        };
+        if self.spec.flip { self.size as f64 - 1.0 - i } else { i }
+    }
+
+    /// The texels on either side of a parameter, clamped at the ends, and the weight of the second.
+    pub fn neighbours(&self, p: f64) -> (usize, usize, f64) {
+        let last = self.size - 1;
+        let texel = self.texel(p).clamp(0.0, last as f64);
+        let first = texel as usize;
+        (first, (first + 1).min(last), texel - first as f64)
+    }
+
+    /// The number of texels whose parameter was raised to the axis's min.
+    pub fn clamped(&self) -> usize {
+        let free = Axis { spec: AxisSpec { min: 0.0, ..self.spec }, size: self.size };
+        (0..self.size).filter(|&i| free.value(i) < self.spec.min).count()
+    }
+
+    /// The parameter at every texel, in order.
+    pub fn values(&self) -> Vec<f64> {
+        (0..self.size).map(|i| self.value(i)).collect()
+    }
+
+    /// The position of a texel as a formula in i, for the metadata.
+    pub fn formula(&self) -> String {
+        let n = self.size;
+        let i = if self.spec.flip { format!("({} - i)", n - 1) } else { "i".into() };
+        let t = match self.spec.nodes {
+            Nodes::Edges => format!("{i}/{}", (n - 1).max(1)),
+            Nodes::Offset(offset) => format!("({i} + {offset})/{n}"),
+        };
+        let p = match self.spec.mapping {
+            Mapping::Linear => "t",
+            Mapping::Sqrt => "t^2",
+            Mapping::SqrtComplement => "1 - t^2",
+        };
+        let min = self.spec.min;
+        let p = if min > 0.0 { format!("max({p}, {min:?})") } else { p.into() };
+        let p =
+            if self.spec.parameter == Parameter::Exponent { format!("10^(7 ({p}))") } else { p };
+        format!("{} = {p}, t = clamp({t}, 0, 1)", self.spec.parameter)
+    }
+
+    /// The texture coordinate in [0, 1] at a parameter, as an expression in the variable `p`: the
+    /// inverse of [`Axis::value`] where that does not clamp. The same text is valid in WGSL, GLSL,
+    /// HLSL and Metal. The variable of an exponent is n itself.
+    pub fn uv(&self, p: &str) -> String {
+        let n = self.size as f64;
+        let p = match self.spec.parameter {
+            // p = log10(n)/7
+            Parameter::Exponent => format!("(log2({p}) * {:?})", std::f64::consts::LOG10_2 / 7.0),
+            Parameter::Nov | Parameter::Roughness | Parameter::Alpha | Parameter::F0 => {
+                p.to_owned()
+            }
+        };
+        let t = match self.spec.mapping {
+            Mapping::Linear => p,
+            Mapping::Sqrt => format!("sqrt(max({p}, 0.0))"),
+            Mapping::SqrtComplement => format!("sqrt(max(1.0 - {p}, 0.0))"),
+        };
+        // A sampler finds the centre of texel i at (i + 1/2)/N.
+        let (scale, offset) = match self.spec.nodes {
+            Nodes::Edges => ((n - 1.0).max(1.0) / n, 0.5 / n),
+            Nodes::Offset(offset) => (1.0, (0.5 - offset) / n),
+        };
+        let (scale, offset) = if self.spec.flip { (-scale, 1.0 - offset) } else { (scale, offset) };
+        match (scale, offset) {
+            (1.0, 0.0) => t,
+            (1.0, offset) => format!("{t} + {offset:?}"),
+            (scale, offset) => format!("{t} * {scale:?} + {offset:?}"),
+        }
+    }
+}
+
+/// The offsets of nodes: up to two texels beyond an end.
+const OFFSETS: RangeInclusive<f64> = -2.0..=2.0;
+
+/// The words of an axis, for `--help` and errors.
+pub const AXIS_WORDS: &str = "PARAMETER[,MAPPING][,NODES][,flip][,min=X] with PARAMETER nov, \
+                              roughness, alpha, exponent or (along z) f0; MAPPING linear, sqrt \
+                              (t = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES centres, \
+                              edges or offset=X with X in [-2, 2]";
+
+impl FromStr for AxisSpec {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        let wrong = |got: &str| {
+            Error::bad_input("axis", AXIS_WORDS, format!("'{got}' in '{text}'"), "use those words")
+        };
+        let mut words = text.split(',').map(str::trim);
+        let parameter = words.next().unwrap_or_default();
+        let mut spec = AxisSpec::of(Parameter::named(parameter).map_err(|_| wrong(parameter))?);
+        let number = |text: &str, range: RangeInclusive<f64>| {
+            text.parse().ok().filter(|x: &f64| range.contains(x)).ok_or_else(|| wrong(text))
+        };
+        let mut given = Vec::new();
+        for word in words {
+            let kind = match word.split_once('=') {
+                Some((key, _)) if key != "offset" => key,
+                None if word == "flip" => word,
+                Some(_) | None if Mapping::named(word).is_err() => "nodes",
+                _ => "mapping",
+            };
+            if given.contains(&kind) {
+                return Err(wrong(word));
+            }
+            given.push(kind);
+            match word.split_once('=') {
+                None => match word {
+                    "centres" => spec.nodes = Nodes::Offset(0.5),
+                    "edges" => spec.nodes = Nodes::Edges,
+                    "flip" => spec.flip = true,
+                    _ => spec.mapping = Mapping::named(word).map_err(|_| wrong(word))?,
+                },
+                Some(("offset", x)) => spec.nodes = Nodes::Offset(number(x, OFFSETS)?),
+                Some(("min", x)) => spec.min = number(x, 0.0..=1.0)?,
+                Some(_) => return Err(wrong(word)),
+            }
+        }
+        Ok(spec)
+    }
+}
+
+impl fmt::Display for AxisSpec {
+    /// The words that [`AxisSpec::from_str`] reads back to the same axis.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{},{}", self.parameter, self.mapping)?;
+        match self.nodes {
+            Nodes::Edges => write!(f, ",edges")?,
+            Nodes::Offset(0.5) => write!(f, ",centres")?,
+            Nodes::Offset(offset) => write!(f, ",offset={offset}")?,
+        }
+        if self.flip {
+            write!(f, ",flip")?;
+        }
+        if self.min > 0.0 {
+            // Short where it has a hundred zeros.
+            write!(f, ",min={:?}", self.min)?;
+        }
+        Ok(())
+    }
+}

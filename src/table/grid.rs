@@ -1,0 +1,80 @@
+//! The parameters of a table's texels, apart from the order in which the table stores them: every
+//! pair of an α and an n·v.
+
+use super::axis::{Axis, Parameter};
+use crate::error::{Error, Result};
+use crate::units::{Alpha, PerceptualRoughness, alpha_of_exponent};
+
+/// Every pair of these α and n·v.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    /// n·v, varying fastest.
+    pub mus: Vec<f64>,
+    /// α.
+    pub alphas: Vec<f64>,
+    /// Whether n·v runs along the table's y axis.
+    pub(crate) transposed: bool,
+}
+
+impl Grid {
+    /// The grid of two axes, of which one has to be n·v and the other a roughness.
+    pub fn new(x: &Axis, y: &Axis) -> Result<Self> {
+        let nov = |axis: &Axis| axis.spec().parameter == Parameter::Nov;
+        match (nov(x), nov(y), alphas(x), alphas(y)) {
+            (true, _, _, Some(alphas)) => {
+                Ok(Grid { mus: x.values(), alphas: alphas?, transposed: false })
+            }
+            (_, true, Some(alphas), _) => {
+                Ok(Grid { mus: y.values(), alphas: alphas?, transposed: true })
+            }
+            _ => Err(Error::bad_input(
+                "axes",
+                "nov along one and roughness, alpha or exponent along the other",
+                format!("x = {}, y = {}", x.spec().parameter, y.spec().parameter),
+                "name one of each",
+            )),
+        }
+    }
+
+    /// Every pair of these n·v and these α.
+    pub fn of(mus: Vec<f64>, alphas: Vec<f64>) -> Self {
+        Grid { mus, alphas, transposed: false }
+    }
+
+    /// The number of points.
+    pub fn len(&self) -> usize {
+        self.mus.len() * self.alphas.len()
+    }
+
+    /// Whether it has no point.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The same α with other directions.
+    pub fn at_directions(&self, mus: Vec<f64>) -> Grid {
+        Grid { mus, ..self.clone() }
+    }
+
+    /// (n·v, α) of point `index`.
+    pub fn point(&self, index: usize) -> (f64, f64) {
+        (self.mus[index % self.mus.len()], self.alphas[index / self.mus.len()])
+    }
+
+    /// At most `rows` α from row `first` on.
+    pub fn band(&self, first: usize, rows: usize) -> Grid {
+        let alphas = self.alphas.iter().skip(first).take(rows).copied().collect();
+        Grid { mus: self.mus.clone(), alphas, transposed: self.transposed }
+    }
+}
+
+/// α at every texel of an axis of roughness; none of another axis.
+fn alphas(axis: &Axis) -> Option<Result<Vec<f64>>> {
+    let alpha: fn(f64) -> Result<f64> = match axis.spec().parameter {
+        Parameter::Roughness => |p| PerceptualRoughness::new(p).map(|r| Alpha::from(r).get()),
+        Parameter::Exponent => |p| Ok(alpha_of_exponent(libm::exp10(7.0 * p))),
+        Parameter::Alpha => Ok,
+        Parameter::Nov | Parameter::F0 => return None,
+    };
+    Some(axis.values().into_iter().map(alpha).collect())
+}

@@ -1,0 +1,88 @@
+//! The third axis of a table: each slice is a table over two axes for one value of a further
+//! parameter. Files store slices as layers.
+
+use super::axis::{Axis, AxisSpec, Parameter};
+use crate::error::{Error, Result};
+use crate::units::F0;
+
+/// The largest number of slices.
+pub const LARGEST_COUNT: usize = 64;
+
+/// The slices of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slices {
+    parameter: Parameter,
+    values: Vec<f64>,
+    /// The axis whose nodes the values are; none where they were listed.
+    spec: Option<AxisSpec>,
+}
+
+impl Slices {
+    /// Slices at the nodes of an axis of F0.
+    pub fn along(axis: &Axis) -> Result<Self> {
+        let spec = axis.spec();
+        if spec.parameter != Parameter::F0 {
+            let got = spec.parameter.to_string();
+            return Err(Error::bad_input(
+                "axis z",
+                "f0",
+                got,
+                "lay n.v and roughness along x and y",
+            ));
+        }
+        Slices::new(spec.parameter, axis.values(), Some(spec))
+    }
+
+    /// Slices at these F0.
+    pub fn at_f0s(values: Vec<f64>) -> Result<Self> {
+        for &value in &values {
+            F0::new(value)?;
+        }
+        Slices::new(Parameter::F0, values, None)
+    }
+
+    fn new(parameter: Parameter, values: Vec<f64>, spec: Option<AxisSpec>) -> Result<Self> {
+        if !(1..=LARGEST_COUNT).contains(&values.len()) {
+            let expected = format!("1 to {LARGEST_COUNT} slices");
+            let got = values.len().to_string();
+            return Err(Error::bad_input("slices", expected, got, "give a number in that range"));
+        }
+        if (1..values.len()).any(|i| values[..i].contains(&values[i])) {
+            let expected = "different values";
+            let cure = "give each value once, or other nodes";
+            return Err(Error::bad_input(parameter.to_string(), expected, listed(&values), cure));
+        }
+        Ok(Slices { parameter, values, spec })
+    }
+
+    /// The parameter that differs from slice to slice.
+    pub fn parameter(&self) -> Parameter {
+        self.parameter
+    }
+
+    /// Its value in each slice.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The number of slices.
+    pub fn count(&self) -> usize {
+        self.values.len()
+    }
+
+    /// The axis whose nodes the values are; none where they were listed.
+    pub fn spec(&self) -> Option<AxisSpec> {
+        self.spec
+    }
+
+    /// The name of a slice, such as `F0 = 0.04`.
+    pub fn label(&self, slice: usize) -> String {
+        format!("{} = {}", self.parameter.to_string().to_uppercase(), self.values[slice])
+    }
+}
+
+/// Numbers with commas between, at most nine of them.
+fn listed(values: &[f64]) -> String {
+    let shown = values.iter().take(9).map(f64::to_string).collect::<Vec<_>>().join(",");
+    if values.len() > 9 { format!("{shown},… ({} in all)", values.len()) } else { shown }
+}

@@ -1,0 +1,66 @@
+//! What the program says about itself: help, manual pages, completions.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+#[path = "common/program.rs"]
+mod program;
+
+use program::{ok, run, stderr};
+use splitsum::brdf::{Fresnel, Ndf};
+use splitsum::choice::Choice;
+use tempfile::{TempDir, tempdir};
+
+fn said(folder: &TempDir, arguments: &str) -> String {
+    String::from_utf8(ok(folder, arguments).stdout).unwrap()
+}
+
+#[test]
+fn help_tells_the_exit_codes() {
+    let folder = tempdir().unwrap();
+    for command in ["", "bake", "furnace", "preview", "devices", "man", "completions"] {
+        let text = said(&folder, &format!("{command} --help"));
+        for (code, meaning) in splitsum::error::ExitCode::MEANINGS {
+            assert!(text.contains(&format!("{}  {meaning}", code as u8)), "{command}: {meaning}");
+        }
+    }
+    assert_eq!(run(&folder, "").status.code(), Some(2));
+    assert!(said(&folder, "--version").starts_with("splitsum "));
+}
+
+#[test]
+fn help_lists_every_word_that_a_flag_takes() {
+    let folder = tempdir().unwrap();
+    let text = said(&folder, "bake --help");
+    let models = Ndf::ALL.iter().map(|ndf| ndf.word());
+    for word in models.chain(Fresnel::ALL.iter().map(|fresnel| fresnel.word())) {
+        assert!(text.contains(&format!("- {word}:")), "{word}");
+    }
+}
+
+#[test]
+fn completions_know_commands_and_words() {
+    let folder = tempdir().unwrap();
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let text = said(&folder, &format!("completions {shell}"));
+        for word in ["splitsum", "furnace", "dry-run"] {
+            assert!(text.contains(word), "{shell}: no {word}");
+        }
+        // clap gives these two no values.
+        let values = !["elvish", "powershell"].contains(&shell);
+        assert_eq!(text.contains("schlick-f82"), values, "{shell}");
+    }
+    assert_eq!(run(&folder, "completions tcsh").status.code(), Some(2));
+}
+
+#[test]
+fn a_manual_page_has_the_commands_and_their_flags() {
+    let folder = tempdir().unwrap();
+    assert!(said(&folder, "man").contains("splitsum\\-bake(1)"));
+    for page in ["man bake", "man chart speed"] {
+        let text = said(&folder, page);
+        assert!(text.contains(".TH splitsum\\-") || text.contains(".TH splitsum-"), "{page}");
+        assert!(text.contains("\\-\\-output"), "{page}");
+    }
+    let output = run(&folder, "man bread");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("bake"), "{}", stderr(&output));
+}
