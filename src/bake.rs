@@ -25,7 +25,7 @@ use crate::table::Table;
 use crate::table::claim::{Claim, Stage};
 use crate::table::grid::Grid;
 use crate::table::packed::Packed;
-use integration::{Checked, Integration, on_device};
+use integration::{Checked, Integration, on_device, sum};
 use std::time::Instant;
 
 /// A baked table, and a report for each of its slices.
@@ -146,8 +146,7 @@ impl Slice<'_> {
             let by_device = match device {
                 Some((gpu, rule)) => {
                     let baked = on_device(gpu, self.lut.integrand(), &band, rule, self.progress)?;
-                    device_seconds =
-                        baked.device_seconds.map(|s| s + device_seconds.unwrap_or(0.0));
+                    device_seconds = sum(device_seconds, baked.device_seconds);
                     seconds.integrate += start.elapsed().as_secs_f64();
                     Some((gpu, rule, baked.integrals))
                 }

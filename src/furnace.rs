@@ -4,13 +4,13 @@
 
 use crate::backend::cpu;
 use crate::brdf::fresnel::{average_schlick, schlick_complement};
-use crate::brdf::{Diffuse, Masking, Microfacet};
+use crate::brdf::{Diffuse, Microfacet};
 use crate::choice::{Choice, choice};
 use crate::error::{Error, Result};
 use crate::integrate::average::{average_nodes, averages};
 use crate::integrate::rule::Rule;
 use crate::integrate::{Field, ScaleBias};
-use crate::lut::energy::check_leaves_energy;
+use crate::lut::energy::{check_leaves_energy, check_scatters};
 use crate::numeric::quadrature::tanh_sinh::tanh_sinh;
 use crate::table::grid::Grid;
 use crate::units::roughness_of;
@@ -93,18 +93,6 @@ pub struct Extremes {
 }
 
 impl MultipleScattering {
-    /// Refuses a masking term without which the albedo is 0/0 at n·v = 0.
-    fn check(self, masking: Masking) -> Result<()> {
-        match (self, masking) {
-            (MultipleScattering::Turquin | MultipleScattering::FdezAguera, Masking::Implicit) => {
-                let expected = "a Smith term: only its loss is multiple scattering";
-                let cure = "choose another model or masking, or no multiple scattering";
-                Err(Error::bad_input("masking", expected, masking.word(), cure))
-            }
-            _ => Ok(()),
-        }
-    }
-
     /// The specular albedo with the loss given back, at F0 for the integrals of a direction and of
     /// the average.
     pub fn albedo(self, f0: f64, integral: ScaleBias, average: ScaleBias) -> f64 {
@@ -132,7 +120,12 @@ pub fn furnaces(
     rule: &Rule,
 ) -> Result<Vec<Furnace>> {
     check_leaves_energy(material.lobe)?;
-    material.multiple_scattering.check(material.lobe.masking)?;
+    match material.multiple_scattering {
+        MultipleScattering::None | MultipleScattering::KullaConty => (),
+        MultipleScattering::Turquin | MultipleScattering::FdezAguera => {
+            check_scatters(material.lobe)?;
+        }
+    }
     if splits.contains(&Split::Reciprocal) && material.base != Diffuse::Lambert {
         let (got, cure) =
             (material.base.word(), "choose lambert, or leave the reciprocal split out");

@@ -82,13 +82,7 @@ impl Baker {
     /// The integrals at these (n·v, α).
     pub fn bake_points(&self, points: &[(f64, f64)]) -> Field {
         if !self.work.shares_rows() {
-            let mut field = Field::zeros(self.count, points.len());
-            let chunks =
-                field.values_mut().par_chunks_mut(CHUNK * self.count).zip(points.par_chunks(CHUNK));
-            chunks.for_each(|(integrals, points)| {
-                self.work.integrate(Points::List(points), integrals)
-            });
-            return field;
+            return in_chunks(&*self.work, self.count, points);
         }
         let rows: Vec<&[(f64, f64)]> = points.chunk_by(|a, b| a.1 == b.1).collect();
         let row = |points: &&[(f64, f64)]| {
@@ -154,6 +148,14 @@ trait Work: Send + Sync {
     fn shares_rows(&self) -> bool;
 }
 
+/// The `count` integrals at each of these (n·v, α), where points share no work.
+fn in_chunks(work: &dyn Work, count: usize, points: &[(f64, f64)]) -> Field {
+    let mut field = Field::zeros(count, points.len());
+    let chunks = field.values_mut().par_chunks_mut(CHUNK * count).zip(points.par_chunks(CHUNK));
+    chunks.for_each(|(integrals, points)| work.integrate(Points::List(points), integrals));
+    field
+}
+
 /// A diffuse lobe's albedo.
 struct ClosedForm {
     diffuse: Diffuse,
@@ -205,12 +207,7 @@ fn specular<const N: usize, B: Basis<N>>(lobe: Microfacet, basis: B, rule: &Rule
         Method::ClosedForm => specular(lobe, basis, &crate::integrate::rules::REFERENCE),
         Method::Interpolant(rule) => {
             let source = by(Nodes::LightDirections(rule.source.nodes()));
-            let points = rule.points();
-            let mut integrals = Field::zeros(N, points.len());
-            let chunks =
-                integrals.values_mut().par_chunks_mut(CHUNK * N).zip(points.par_chunks(CHUNK));
-            chunks
-                .for_each(|(integrals, points)| source.integrate(Points::List(points), integrals));
+            let integrals = in_chunks(&source, N, &rule.points());
             Arc::new(Interpolated { rule, interpolant: rule.fit(basis, &integrals), source })
         }
     }

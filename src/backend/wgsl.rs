@@ -113,8 +113,8 @@ pub fn bake_kernel(lobe: Microfacet, fresnel: Fresnel, power: Power) -> Result<K
 /// The kernel that bakes the integrals that `function` of a source gives for a texel.
 pub fn kernel(source: &str, fresnel: Fresnel, function: &str) -> Result<Kernel> {
     let quadrature = format!(
-        "fn quadrature(mu: f32, alpha: f32, rule: Rule) -> Weights {{ return {function}(mu, \
-         alpha, rule); }}"
+        "fn quadrature(mu: f32, alpha: f32, rule: Rule) -> Weights {{ return {function}(mu, alpha, \
+         rule); }}"
     );
     compile(
         &[source, &store_source(fresnel), &quadrature, module::INTEGRATE, module::BAKE].join("\n"),

@@ -77,8 +77,7 @@ impl Integration<'_> {
         let integrals = match gpu {
             Some(gpu) => {
                 let baked = on_device(gpu, *integrand, grid, rule, progress)?;
-                checked.device_seconds =
-                    baked.device_seconds.map(|s| s + checked.device_seconds.unwrap_or(0.0));
+                checked.device_seconds = sum(checked.device_seconds, baked.device_seconds);
                 baked.integrals
             }
             None => baker.bake(grid, progress),
@@ -95,6 +94,11 @@ impl Integration<'_> {
         checked.seconds.check += start.elapsed().as_secs_f64();
         Ok(integrals)
     }
+}
+
+/// The device's time so far and that of the next grid; none where the device does not tell it.
+pub(super) fn sum(so_far: Option<f64>, next: Option<f64>) -> Option<f64> {
+    next.map(|next| so_far.unwrap_or(0.0) + next)
 }
 
 /// The integrals of a specular lobe by a device.

@@ -88,8 +88,7 @@ pub fn cross_check(
     let differences = worst.in_words(&integrand.names());
     Err(Error::CheckFailed(format!(
         "device and CPU differ by {differences}, where {allowed:e} is allowed, worst at n.v = \
-         {mu}, alpha = {alpha}; \
-         the table is thrown away; use another device, or --backend cpu"
+         {mu}, alpha = {alpha}; the table is thrown away; use another device, or --backend cpu"
     )))
 }
 
@@ -113,9 +112,8 @@ pub(super) fn check_range(
     let (value, (mu, alpha)) = (table.values()[index], grid.point(index / table.count()));
     let name = integrand.names()[index % table.count()];
     Err(Error::CheckFailed(format!(
-        "at n.v = {mu}, alpha = {alpha} the device gives {name} = {value}, which no albedo can \
-         be; the table is thrown \
-         away; use another device, or --backend cpu"
+        "at n.v = {mu}, alpha = {alpha} the device gives {name} = {value}, which no albedo can be; \
+         the table is thrown away; use another device, or --backend cpu"
     )))
 }
 
@@ -155,8 +153,7 @@ pub fn measure(
     let errors = worst.in_words(&integrand.names());
     Err(Error::CheckFailed(format!(
         "the table errs by {errors}, where {bound:e} is promised, worst at n.v = {mu}, alpha = \
-         {alpha}; please report \
-         this request"
+         {alpha}; please report this request"
     )))
 }
 

@@ -73,9 +73,8 @@ impl Tally {
             rounded.into()
         } else {
             format!(
-                "{rounded}; but {undecided} texels, with a value as near to a boundary of \
-                 rounding as {at_most} (of values \
-                 above 1 relative), may be the other nearest"
+                "{rounded}; but {undecided} texels, with a value as near to a boundary of rounding \
+                 as {at_most} (of values above 1 relative), may be the other nearest"
             )
         };
         Ok(Certificate {

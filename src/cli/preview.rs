@@ -43,8 +43,7 @@ pub enum Light {
 choice!(Light, "scene", {
     Punctual = "punctual", "one light; Blinn-Phong, Beckmann and GGX below each other";
     Furnace = "furnace", "from everywhere; for Beckmann and GGX the split sum with a table, the \
-                          integral, their difference \
-                          times 100";
+                          integral, their difference times 100";
     Sky = "sky", "a sky; Blinn-Phong, Beckmann and GGX below each other";
 });
 

@@ -66,13 +66,11 @@ impl Energy {
     /// Refuses the lobes for which the numbers have no meaning.
     pub fn new(lobe: Microfacet, f0: F0, channels: EnergyChannels) -> Result<Self> {
         lobe.check()?;
-        let cure = "choose another model or masking";
         if channels != EnergyChannels::Average {
             check_leaves_energy(lobe)?;
         }
-        if channels == EnergyChannels::Turquin && lobe.masking == Masking::Implicit {
-            let expected = "a Smith term: only its loss is multiple scattering";
-            return Err(Error::bad_input("masking", expected, lobe.masking.word(), cure));
+        if channels == EnergyChannels::Turquin {
+            check_scatters(lobe)?;
         }
         if channels == EnergyChannels::Split && f0.get() >= 1.0 {
             let cure = "give an F0 below 1";
@@ -141,6 +139,17 @@ pub fn check_leaves_energy(lobe: Microfacet) -> Result<()> {
         got,
         cure,
     ))
+}
+
+/// Refuses a masking term whose loss is no multiple scattering: it is all at n·v = 0, and what is
+/// scaled by 1/E is 0/0 there.
+pub fn check_scatters(lobe: Microfacet) -> Result<()> {
+    if lobe.masking != Masking::Implicit {
+        return Ok(());
+    }
+    let expected = "a Smith term: only its loss is multiple scattering";
+    let cure = "choose another model or masking";
+    Err(Error::bad_input("masking", expected, lobe.masking.word(), cure))
 }
 
 impl EnergyChannels {

@@ -259,9 +259,9 @@ const OFFSETS: RangeInclusive<f64> = -2.0..=2.0;
 
 /// The words of an axis, for `--help` and errors.
 pub const AXIS_WORDS: &str = "PARAMETER[,MAPPING][,NODES][,flip][,min=X] with PARAMETER nov, \
-                              roughness, alpha, exponent or (along z) f0; MAPPING linear, sqrt \
-                              (t = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES centres, \
-                              edges or offset=X with X in [-2, 2]";
+                              roughness, alpha, exponent or (along z) f0; MAPPING linear, sqrt (t \
+                              = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES centres, edges \
+                              or offset=X with X in [-2, 2]";
 
 impl FromStr for AxisSpec {
     type Err = Error;

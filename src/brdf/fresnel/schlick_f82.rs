@@ -20,8 +20,8 @@ impl Basis<3> for SchlickF82 {
         word: "schlick-f82",
         about: "the same less a v.h (1-v.h)^6: metals with an F82 tint (Hoffman 2019; Kutz et al. \
                 2021)",
-        formula: "Schlick with F82 tint: F = F0 + (1 - F0) (1 - v.h)^5 - a v.h (1 - v.h)^6, \
-                  a = (F0 + (1 - F0) (6/7)^5) (1 - tint) 7 (7/6)^6",
+        formula: "Schlick with F82 tint: F = F0 + (1 - F0) (1 - v.h)^5 - a v.h (1 - v.h)^6, a = \
+                  (F0 + (1 - F0) (6/7)^5) (1 - tint) 7 (7/6)^6",
         albedo: "E(F0, tint) = F0*A + B - a*C",
         channels: "abc",
         integrals: &[
@@ -29,8 +29,7 @@ impl Basis<3> for SchlickF82 {
             Integral { name: "B", meaning: "bias: E = F0*A + B - a*C", relative_error: 1.0 },
             Integral {
                 name: "C",
-                meaning: "tint: E = F0*A + B - a*C, \
-                          a = (F0 + (1-F0) (6/7)^5) (1-tint) 7 (7/6)^6",
+                meaning: "tint: E = F0*A + B - a*C, a = (F0 + (1-F0) (6/7)^5) (1-tint) 7 (7/6)^6",
                 // The largest that a search found is 2.6.
                 relative_error: 4.0,
             },

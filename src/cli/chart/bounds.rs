@@ -65,13 +65,11 @@ fn page(found: &Search, devices: &Devices, arguments: &BoundsArgs) -> String {
     let worst = found.findings.iter().map(Finding::ratio).fold(0.0, f64::max);
     let mut text = format!(
         "# How far bounds are from being broken\n\nWritten by `splitsum chart bounds --seconds {} \
-         --seed {}` (splitsum {}; the CPU{names}). \
-         For every rule, lobe and channel it climbs towards the largest error over the bound, \
-         from starts crowded at every edge and corner \
-         of the domain; the truth is the reference, and the reference's own truth one with half \
-         again as many nodes. {} points were tried. \
-         The largest share is {worst:.2}; the command fails where one exceeds 2/3, the margin of \
-         1.5 that every bound keeps.\n\n\
+         --seed {}` (splitsum {}; the CPU{names}). For every rule, lobe and channel it climbs \
+         towards the largest error over the bound, from starts crowded at every edge and corner of \
+         the domain; the truth is the reference, and the reference's own truth one with half again \
+         as many nodes. {} points were tried. The largest share is {worst:.2}; the command fails \
+         where one exceeds 2/3, the margin of 1.5 that every bound keeps.\n\n\
          ## The worst place of each rule\n\n{HEAD}",
         arguments.seconds, arguments.seed, machine.version, found.points
     );

@@ -92,9 +92,8 @@ fn page(
         .map(|device| format!("; {} ({})", device.name, device.driver))
         .collect();
     let mut text = format!(
-        "# Speed against accuracy\n\nWritten by `splitsum chart speed` (splitsum {}{devices}); \
-         the numbers are in the `.csv` and `.json` \
-         files beside it.\n",
+        "# Speed against accuracy\n\nWritten by `splitsum chart speed` (splitsum {}{devices}); the \
+         numbers are in the `.csv` and `.json` files beside it.\n",
         machine.version
     );
     text += &(picture("Error against time", "speed") + &summary(speed, machine));
@@ -111,10 +110,9 @@ fn sizes_needed(readings: &[Reading], lobe: Microfacet) -> String {
     let heads = ERRORS.map(|error| format!(" {error:e} |")).concat();
     let mut text = format!(
         "Errors are those of the albedo E(F0) at the F0 that shows them most, the largest of a \
-         search over every cell \
-         and the corner.\n\nKiB of the smallest table whose lookups are nowhere farther off, for \
-         perceptual roughness \
-         from {} and n·v from {} on\n\n| largest error |{heads}\n| --- |{}\n",
+         search over every cell and the corner.\n\nKiB of the smallest table whose lookups are \
+         nowhere farther off, for perceptual roughness from {} and n·v from {} on\n\n| largest \
+         error |{heads}\n| --- |{}\n",
         PRACTICAL.roughness,
         PRACTICAL.nov,
         " --- |".repeat(ERRORS.len())
@@ -160,12 +158,10 @@ fn corner(lobe: Microfacet) -> String {
     match lookup::corner(lobe) {
         Some(error) if error > 1e-3 => format!(
             "\nNo table over n·v and roughness errs by less than {error:.3} near the corner n·v = \
-             roughness = 0, whatever \
-             its size: the two limits do not commute. Near it E depends on n·v/α alone, so that \
-             every neighbourhood of the \
-             corner holds values that lie {:.3} apart, and whatever is continuous there misses \
-             one of them by half of \
-             that. A table with the corner's own value at a texel errs by all of it.\n",
+             roughness = 0, whatever its size: the two limits do not commute. Near it E depends on \
+             n·v/α alone, so that every neighbourhood of the corner holds values that lie {:.3} \
+             apart, and whatever is continuous there misses one of them by half of that. A table \
+             with the corner's own value at a texel errs by all of it.\n",
             2.0 * error
         ),
         _ => String::new(),

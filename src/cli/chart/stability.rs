@@ -58,8 +58,8 @@ pub fn run(StabilityArgs { study }: &StabilityArgs) -> Result<()> {
 fn page(stability: &Stability, machine: &Machine) -> String {
     let mut text = format!(
         "# Where formulas and methods fail\n\nWritten by `splitsum chart stability` ({}, {} \
-         threads; splitsum {}). Colours are errors \
-         from 1e-8 (white) to 1 (dark blue). Every failure and every bound named here is tested.\n",
+         threads; splitsum {}). Colours are errors from 1e-8 (white) to 1 (dark blue). Every \
+         failure and every bound named here is tested.\n",
         machine.processor, machine.threads, machine.version
     );
     for (family, name, title) in CHARTS {

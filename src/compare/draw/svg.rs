@@ -14,8 +14,8 @@ pub fn write(drawing: &Drawing) -> Result<String> {
     let Drawing { width, height, shapes } = drawing;
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" \
-         font-family=\"{}\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
+         viewBox=\"0 0 {width} {height}\" font-family=\"{}\">\n<rect width=\"100%\" \
+         height=\"100%\" fill=\"#ffffff\"/>\n",
         font::FAMILY
     );
     for shape in shapes {
@@ -69,8 +69,7 @@ fn write_shape(svg: &mut String, shape: &Shape) -> Result<()> {
             writeln!(
                 svg,
                 "<image x=\"{x:.2}\" y=\"{y:.2}\" width=\"{width:.2}\" height=\"{height:.2}\" \
-                 preserveAspectRatio=\"none\" \
-                 style=\"image-rendering:pixelated\" \
+                 preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" \
                  href=\"data:image/png;base64,{png}\">{}</image>",
                 titled(title)
             )

@@ -139,8 +139,8 @@ pub fn check(search: &Search) -> Result<()> {
         Some(Finding { rule, device, lobe, fresnel, integral, mu, alpha, error, bound }) => {
             Err(Error::CheckFailed(format!(
                 "{rule} of {lobe}, {fresnel} by {} errs by {error:e} in {integral} at n.v = \
-                 {mu:e}, alpha = {alpha:e}, where {bound:e} is promised, \
-             which has to hold with a margin of {MARGIN}; mend the rule, or raise its bound",
+                 {mu:e}, alpha = {alpha:e}, where {bound:e} is promised, which has to hold with a \
+                 margin of {MARGIN}; mend the rule, or raise its bound",
                 device.as_deref().unwrap_or("the CPU")
             )))
         }

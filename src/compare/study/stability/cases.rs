@@ -20,8 +20,7 @@ fn sums() -> Case {
     Case {
         name: "sums of 65,536 samples",
         about: "Added one by one in f32, a sample is rounded to the last digit of the sum so far. \
-                In \
-                blocks of 64, and blocks of blocks, what is rounded stays small.",
+                In blocks of 64, and blocks of blocks, what is rounded stays small.",
         x: Scale::with_zero("n·v", 1e-6, 1.0),
         y: Scale::new("roughness", 0.05, 1.0),
         fails: 1e-5,
@@ -33,12 +32,10 @@ fn sums() -> Case {
 fn methods() -> Case {
     Case {
         name: "A and B",
-        about: "The loop that engines ship divides 0 by 0 at n·v = 0, finds nothing where the \
-                lobe is \
-                smooth, and at grazing angles most of its samples lie below the horizon; better \
+        about: "The loop that engines ship divides 0 by 0 at n·v = 0, finds nothing where the lobe \
+                is smooth, and at grazing angles most of its samples lie below the horizon; better \
                 samplers cure the latter. Quadrature on a map that follows the lobe holds its \
-                bound \
-                from corner to corner.",
+                bound from corner to corner.",
         x: Scale::with_zero("n·v", 1e-6, 1.0),
         y: roughness(),
         fails: 0.1,
@@ -51,10 +48,8 @@ fn storage_of_b() -> Case {
     Case {
         name: "storing B",
         about: "B spans ten decades. Eight bits keep nothing of it below 0.002, halves turn \
-                subnormal \
-                below 6e-5 and 0 below 3e-8, and f32 keeps all of it; what counts for a renderer \
-                is \
-                the absolute error, which the file states.",
+                subnormal below 6e-5 and 0 below 3e-8, and f32 keeps all of it; what counts for a \
+                renderer is the absolute error, which the file states.",
         x: Scale::new("n·v", 1e-3, 1.0),
         y: roughness(),
         fails: 0.99,
@@ -67,9 +62,8 @@ fn storage_of_sheen() -> Case {
     Case {
         name: "storing Charlie's albedo",
         about: "Sheen's albedo has no limit as roughness falls: eight bits end at 1, halves at \
-                65,504. \
-                A table whose values do not fit is refused, with the cure: --precision f32, or \
-                --y roughness,min=X.",
+                65,504. A table whose values do not fit is refused, with the cure: --precision \
+                f32, or --y roughness,min=X.",
         x: Scale::with_zero("n·v", 1e-6, 0.1),
         y: Scale::new("roughness", 1e-6, 1.0),
         fails: f64::INFINITY,

@@ -70,9 +70,8 @@ fn d_of_ggx() -> Case {
     Case {
         name: "D of GGX",
         about: "(n·h)² (α²-1) + 1 is what is left of 1 - 1: at roughness 0.1 three digits are \
-                left, \
-                below 0.013 none, and D is infinite. The density of slopes, 1/(π (1+y²)²) with \
-                y = tan θ_h/α, takes no difference.",
+                left, below 0.013 none, and D is infinite. The density of slopes, 1/(π (1+y²)²) \
+                with y = tan θ_h/α, takes no difference.",
         x: angle(),
         y: roughness(),
         fails: 0.1,
@@ -90,8 +89,7 @@ fn d_of_ggx() -> Case {
                 ndf: Ndf::Ggx,
                 textbook: "textbook_ggx(1.0 / sqrt(1.0 + p.x * p.x), p.y * p.y)",
                 ours: "slope_density(p.x / slope_width(p.y * p.y) * (p.x / slope_width(p.y * \
-                       p.y)), \
-                       p.y * p.y) * 3.14159265 * (1.0 + p.x * p.x) * (1.0 + p.x * p.x)",
+                       p.y)), p.y * p.y) * 3.14159265 * (1.0 + p.x * p.x) * (1.0 + p.x * p.x)",
             }),
         }),
     }
@@ -101,10 +99,8 @@ fn d_of_blinn_phong() -> Case {
     Case {
         name: "D of Blinn-Phong",
         about: "n·h has seven digits, and (n·h)ⁿ multiplies what is lost by n: at n = 10⁷ a fifth \
-                of \
-                the peak and more. The power is exp(-(n/2) ln(1 + tan² θ_h)) here, and the \
-                logarithm \
-                that of 1 plus a small number.",
+                of the peak and more. The power is exp(-(n/2) ln(1 + tan² θ_h)) here, and the \
+                logarithm that of 1 plus a small number.",
         x: angle(),
         y: Scale::new("exponent n", 1.0, 1e7),
         fails: 0.2,
@@ -117,8 +113,8 @@ fn d_of_blinn_phong() -> Case {
             wgsl: Some(Wgsl {
                 ndf: Ndf::BlinnPhong,
                 textbook: "textbook_blinn_phong(1.0 / sqrt(1.0 + p.x * p.x), p.y)",
-                ours: "slope_density(p.x * p.x * 0.5 * (p.y + 2.0), sqrt(2.0 / (p.y + 2.0))) \
-                       * 3.14159265 * (1.0 + p.x * p.x) * (1.0 + p.x * p.x)",
+                ours: "slope_density(p.x * p.x * 0.5 * (p.y + 2.0), sqrt(2.0 / (p.y + 2.0))) * \
+                       3.14159265 * (1.0 + p.x * p.x) * (1.0 + p.x * p.x)",
             }),
         }),
     }
@@ -141,8 +137,8 @@ fn d_of_beckmann() -> Case {
             wgsl: Some(Wgsl {
                 ndf: Ndf::Beckmann,
                 textbook: "textbook_beckmann(1.0 / sqrt(1.0 + p.x * p.x), p.y * p.y)",
-                ours: "slope_density(p.x / (p.y * p.y) * (p.x / (p.y * p.y)), p.y * p.y) \
-                       * 3.14159265 * (1.0 + p.x * p.x) * (1.0 + p.x * p.x)",
+                ours: "slope_density(p.x / (p.y * p.y) * (p.x / (p.y * p.y)), p.y * p.y) * \
+                       3.14159265 * (1.0 + p.x * p.x) * (1.0 + p.x * p.x)",
             }),
         }),
     }
@@ -164,8 +160,7 @@ fn visibility() -> Case {
     Case {
         name: "G2/(4 n·l n·v)",
         about: "At n·v = 0 it is 0/0, and before that tan² θ_v leaves the range of f32. n·l V in \
-                one \
-                piece, with √(α² + (1-α²)c²) in units of α, is finite there.",
+                one piece, with √(α² + (1-α²)c²) in units of α, is finite there.",
         x: Scale::with_zero("n·v, n·l = ½", 1e-24, 1.0),
         y: roughness(),
         fails: 0.9,
@@ -191,8 +186,8 @@ fn lambda_of_beckmann() -> Case {
     Case {
         name: "Λ of Beckmann",
         about: "exp(-a²)/(2a√π) is 1/0 at n·v = 0, and what G needs of it, n·v (1 + 2Λ), is 0·∞. \
-                Written n·v + α sin θ i¹erfc(a), it has no quotient, and nothing is left of \
-                erf(a) - 1.",
+                Written n·v + α sin θ i¹erfc(a), it has no quotient, and nothing is left of erf(a) \
+                - 1.",
         x: Scale::with_zero("n·v", 1e-24, 0.999),
         y: roughness(),
         fails: f64::INFINITY,
@@ -216,8 +211,7 @@ fn sampled_half_vectors() -> Case {
     Case {
         name: "sampled half vectors",
         about: "The cosine of a smooth lobe's half vector rounds to 1, and its sine, √(1 - cos²), \
-                to \
-                0: every sample is the mirror's. tan θ_h = α √(v/(1-v)) has all digits.",
+                to 0: every sample is the mirror's. tan θ_h = α √(v/(1-v)) has all digits.",
         x: Scale::new("v", 1e-6, 0.999),
         y: roughness(),
         fails: 0.5,
