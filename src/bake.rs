@@ -174,10 +174,10 @@ impl Slice<'_> {
 
     /// Integrates by one rule, and checks a sample.
     fn uncertified(&self, bytes: &mut [u8]) -> Result<Outcome> {
-        let Plan { request, rules, device, .. } = self.plan;
+        let Plan { request, device, .. } = self.plan;
         let integrand = self.lut.integrand();
-        let rule = device.map(|(_, rule)| rule).or(rules.first().copied());
-        let rule = rule.ok_or_else(|| Error::Internal("no rule for this tolerance".into()))?;
+        let rule =
+            self.plan.rule().ok_or_else(|| Error::Internal("no rule for this tolerance".into()))?;
         let start = Instant::now();
         let mut integration = Integration {
             integrand,
@@ -209,7 +209,7 @@ impl Slice<'_> {
         let claim = Claim::Uncertified {
             rule: rule.name,
             error_bound: bound,
-            measured_error: (measured.max(), measured.texels),
+            measured_error: (measured.max(), measured.points),
             computed_by: computed.to_string(),
         };
         let checks = Checks {
@@ -234,7 +234,7 @@ impl Slice<'_> {
         let (lut, precision) = (self.lut, self.plan.request.precision());
         // No channel is negative. Where none exceeds 1 either, an estimate that does is nearer to
         // the truth at 1.
-        let at_most_one = matches!(lut, Lut::Dfg(_)) && !integration.integrand.may_exceed_one();
+        let at_most_one = lut.at_most_one();
         let count = lut.channels().len();
         let (mut values, mut worst) = (Vec::with_capacity(points.len() * count), 0.0f64);
         for (i, integrals) in points.iter().enumerate() {

@@ -13,6 +13,7 @@ use crate::error::{Error, Result};
 use crate::table::Table;
 use crate::table::precision::Precision;
 use std::io::{Cursor, Seek, Write};
+use std::path::Path;
 
 /// A file that encoders write.
 pub trait WriteSeek: Write + Seek {}
@@ -23,13 +24,13 @@ impl<T: Write + Seek> WriteSeek for T {}
 #[derive(Clone, Copy, Debug)]
 pub struct Format {
     /// The extension of its files, which is its word too.
-    pub extension: &'static str,
+    extension: &'static str,
     /// The storages that it has, the default one first.
-    pub precisions: &'static [Precision],
+    precisions: &'static [Precision],
     /// The names of its channels; a table with fewer fills up with zeros.
-    pub channels: &'static [&'static str],
+    channels: &'static [&'static str],
     /// Whether a file holds several slices.
-    pub slices: bool,
+    slices: bool,
     write: fn(&Table, &mut dyn WriteSeek) -> Result<()>,
 }
 
@@ -55,15 +56,31 @@ pub const FORMATS: &[Format] = &[
 ];
 
 impl Format {
-    /// The format with this extension.
-    pub fn of_extension(extension: &str) -> Result<&'static Format> {
-        let found = FORMATS.iter().find(|format| extension.eq_ignore_ascii_case(format.extension));
-        found.ok_or_else(|| {
-            let known: Vec<String> =
-                FORMATS.iter().map(|format| format!(".{}", format.extension)).collect();
-            let expected = format!("a name that ends in {}", known.join(" or "));
-            Error::bad_input("output", expected, format!("'.{extension}'"), "rename it")
+    /// The format with this word.
+    pub fn named(word: &str) -> Result<&'static Format> {
+        find(word).ok_or_else(|| {
+            let known = extensions("", |_| true);
+            Error::bad_input("format", known, format!("'{word}'"), "name one of these")
         })
+    }
+
+    /// The format of a file with this name, by its extension.
+    pub fn of_file(name: &str) -> Result<&'static Format> {
+        let extension = Path::new(name).extension().unwrap_or_default();
+        find(&extension.to_string_lossy()).ok_or_else(|| {
+            let expected = format!("a name that ends in {}", extensions(".", |_| true));
+            Error::bad_input("output", expected, format!("'{name}'"), "rename it")
+        })
+    }
+
+    /// The extension of its files, which is its word too.
+    pub fn extension(&self) -> &'static str {
+        self.extension
+    }
+
+    /// The storages that it has, the default one first.
+    pub fn precisions(&self) -> &'static [Precision] {
+        self.precisions
     }
 
     /// The storage: the one wanted, if the format has it, or its default.
@@ -83,12 +100,12 @@ impl Format {
         if slices > 1 && !self.slices {
             let (expected, got) =
                 (format!("one slice in a .{}", self.extension), slices.to_string());
-            return Err(Error::bad_input(
-                "slices",
-                expected,
-                got,
-                "write an .exr, or one slice at a time",
-            ));
+            let several = extensions(".", |format| format.slices);
+            let cure = match several.is_empty() {
+                true => "write one slice at a time".into(),
+                false => format!("choose {several}, or write one slice at a time"),
+            };
+            return Err(Error::bad_input("slices", expected, got, cure));
         }
         if channels > self.channels.len() {
             let expected =
@@ -97,7 +114,7 @@ impl Format {
                 "channels",
                 expected,
                 channels.to_string(),
-                "choose fewer",
+                "choose fewer, or another format",
             ));
         }
         Ok(())
@@ -109,6 +126,16 @@ impl Format {
         self.check(table.layout().slice_count(), table.channels().len())?;
         (self.write)(table, file)
     }
+}
+
+fn find(extension: &str) -> Option<&'static Format> {
+    FORMATS.iter().find(|format| extension.eq_ignore_ascii_case(format.extension))
+}
+
+/// The extensions of the formats that `serve`, as in `.exr or .png`.
+fn extensions(dot: &str, serve: impl Fn(&Format) -> bool) -> String {
+    let known = FORMATS.iter().filter(|format| serve(format));
+    known.map(|format| format!("{dot}{}", format.extension)).collect::<Vec<_>>().join(" or ")
 }
 
 /// The bytes of a file.

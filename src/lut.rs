@@ -53,24 +53,26 @@ impl Lut {
         }
     }
 
-    /// The F0 of a table for one.
+    /// The F0 of a table for one: a split of energy. The others serve every F0.
     pub fn f0(&self) -> Option<f64> {
         match self {
-            Lut::Energy(energy) => Some(energy.f0().get()),
-            Lut::Dfg(_) | Lut::Diffuse(_) => None,
+            Lut::Energy(energy) if energy.channels() == EnergyChannels::Split => {
+                Some(energy.f0().get())
+            }
+            Lut::Energy(_) | Lut::Dfg(_) | Lut::Diffuse(_) => None,
         }
     }
 
-    /// The table of a slice in which `parameter` has this value; an error where the family does not
-    /// vary with it.
+    /// The table of a slice in which `parameter` has this value; an error where no channel varies
+    /// with it.
     pub fn at(&self, parameter: Parameter, value: f64) -> Result<Lut> {
         match (self, parameter) {
-            (Lut::Energy(energy), Parameter::F0) => {
+            (Lut::Energy(energy), Parameter::F0) if self.f0().is_some() => {
                 Energy::new(energy.lobe(), F0::new(value)?, energy.channels()).map(Lut::Energy)
             }
             _ => {
                 let expected = "a parameter that the table varies with";
-                let cure = "bake a table of energy, or leave the slices out";
+                let cure = "bake the split of energy, or leave the slices out";
                 Err(Error::bad_input("slices", expected, parameter.word(), cure))
             }
         }
@@ -79,6 +81,15 @@ impl Lut {
     /// Whether a texel needs the averages over all directions too.
     pub fn needs_averages(&self) -> bool {
         matches!(self, Lut::Energy(_))
+    }
+
+    /// Whether it is known that no channel exceeds 1.
+    pub fn at_most_one(&self) -> bool {
+        match self {
+            Lut::Dfg(_) => !self.integrand().may_exceed_one(),
+            // (1-E)/E and R exceed 1, and so do some diffuse lobes.
+            Lut::Energy(_) | Lut::Diffuse(_) => false,
+        }
     }
 
     /// The channels of a texel.

@@ -122,14 +122,14 @@ impl fmt::Display for Checks {
         let Checks { evaluations, cross_check, measured, integrals, rounding } = self;
         writeln!(f, "cost      {evaluations:.0} evaluations for a texel")?;
         if let Some(check) = cross_check {
-            let (texels, largest) = (check.texels, check.max());
+            let (points, largest) = (check.points, check.max());
             writeln!(
                 f,
-                "checked   by the CPU at {texels} texels: largest difference {largest:.1e}"
+                "checked   by the CPU at {points} points: largest difference {largest:.1e}"
             )?;
         }
-        let (texels, errors) = (measured.texels, measured.in_words(integrals));
-        writeln!(f, "measured  at {texels} texels against the reference: {errors}")?;
+        let (points, errors) = (measured.points, measured.in_words(integrals));
+        writeln!(f, "measured  at {points} points against the reference: {errors}")?;
         writeln!(f, "rounding  adds at most {rounding:.1e} in the file")
     }
 }

@@ -6,6 +6,7 @@ use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::integrate::Integrand;
 use crate::integrate::rule::Rule;
+use crate::integrate::rules::RULES;
 use crate::lut::Lut;
 use crate::table::Layout;
 use crate::table::axis::{Axis, AxisSpec, Parameter};
@@ -201,6 +202,10 @@ fn check_accuracy(lut: &Lut, grid: &Grid, accuracy: Accuracy, precision: Precisi
                 format!("{tolerance:e}"),
                 "give one in that range",
             ))
+        }
+        (Accuracy::Rule(rule), _) if !RULES.contains(&rule) => {
+            let cure = "take it as Rule::named gives it";
+            Err(Error::bad_input("rule", "one with its own bounds", rule.name, cure))
         }
         (Accuracy::Rule(rule), _) => {
             let bounded = |&alpha: &f64| rule.bound_at(integrand, alpha).is_finite();

@@ -44,7 +44,8 @@ macro_rules! unit {
             pub fn new(value: f64) -> Result<Self> {
                 let valid: fn(f64) -> bool = $valid;
                 if valid(value) {
-                    Ok($name(value))
+                    // -0 becomes 0.
+                    Ok($name(value + 0.0))
                 } else {
                     Err(Error::bad_input(
                         $what,

@@ -39,7 +39,7 @@ fn a_bake_says_who_computed_it_and_how_exact_it_is() {
     }
     assert!(fs::read(folder.path().join("a.exr")).unwrap().starts_with(&[0x76, 0x2f, 0x31, 0x01]));
     let text = stderr(&ok(&folder, "bake --backend cpu --size 16x8 -o a.exr --certify off"));
-    for words in ["not certified", "at most ", "measured  at 128 texels"] {
+    for words in ["not certified", "at most ", "measured  at 128 points"] {
         assert!(text.contains(words), "no '{words}' in: {text}");
     }
 }
@@ -59,6 +59,8 @@ fn the_default_output_is_made_with_its_folder() {
     let folder = tempdir().unwrap();
     assert_eq!(stderr(&ok(&folder, &format!("{CPU} -q"))), "");
     assert!(folder.path().join("out/dfg.exr").exists());
+    ok(&folder, "chart table --size 8");
+    assert!(folder.path().join("out/dfg.png").exists());
 }
 
 #[test]
@@ -101,7 +103,7 @@ fn every_choice_bakes() {
         "--lut energy --channels turquin -o r.exr",
         "--lut energy --channels split --ior 1.33 -o s.exr",
         "--lut energy --f0 0.02,0.04,0.08,0.5 -o w.exr",
-        "--lut energy --z f0,edges,min=0.02 --size 6x5x3 --channels average -o x.exr",
+        "--lut energy --z f0,sqrt,offset=0,min=0.02 --size 6x5x3 -o x.exr",
         "--fresnel schlick-f82 --channels abc -o y.exr",
         "--model beckmann-walter -o k.exr",
         "--model blinn-phong --y exponent,edges -o l.exr",
@@ -186,7 +188,7 @@ fn wrong_configurations_say_where() {
         ),
         ("[[table]]\noutput = 'a.exr'\nchannels = 'rgb'", "expected ab, be, e, got 'rgb'"),
         ("[[table]]\noutput = 'a.exr'\nprecision = 'f64'", "f16 or f32 for .exr"),
-        ("[[table]]\noutput = 'a.exr'\nformat = 'bmp'", ".exr or .png"),
+        ("[[table]]\noutput = 'a.exr'\nformat = 'bmp'", "format: expected exr or png, got 'bmp'"),
     ] {
         fs::write(folder.path().join("bad.toml"), text).unwrap();
         let output = run(&folder, "bake --backend cpu --config bad.toml");
@@ -206,6 +208,7 @@ fn wrong_values_are_refused_with_what_was_expected() {
     refused("bake --size 0", 4, &["expected 1 to 16384", "got 0"]);
     refused("bake --size 16385", 4, &["got 16385"]);
     refused("bake --size 99999999999999999999", 4, &["a number"]);
+    refused("bake --size -4", 4, &["got '-4'"]);
     refused("bake --size 4x", 4, &["got '4x'", "64x32"]);
     refused("bake --certify off --tolerance 1e-14", 4, &["1e-13 to 0.1"]);
     refused("bake --tolerance 1e-4", 4, &["f16 correctly", "set certify to off"]);
@@ -234,16 +237,15 @@ fn wrong_values_are_refused_with_what_was_expected() {
     refused("bake --lut diffuse --masking implicit", 4, &["leave them out"]);
     refused("bake --lut diffuse --rule h288", 4, &["closed-form"]);
     refused("bake --rule closed-form", 4, &["begins with h"]);
-    refused("bake --f0 0.04", 4, &["energy where f0", "got dfg"]);
+    refused("bake --f0 0.04", 4, &["the split of energy", "got dfg with channels A, B"]);
+    refused("bake --lut energy --channels average --ior 2", 4, &["got energy with channels A_avg"]);
+    refused("bake --lut energy --f0 -0.5", 4, &["expected 0 to 1, got -0.5"]);
+    refused("bake --fresnel schlick-f82 --channels be", 4, &["expected abc, e, got 'be'"]);
     refused("bake --lut energy --f0 1", 4, &["less than 1"]);
     refused("bake --lut energy --f0 nan", 4, &["expected 0 to 1"]);
     refused("bake --lut energy --f0 0.1,0.1", 4, &["different values"]);
     refused("bake --lut energy --f0 0.1,x", 4, &["numbers with commas", "0.1,x"]);
-    refused(
-        "bake --lut energy --f0 0.1,0.2 -o a.png",
-        4,
-        &["one slice in a .png", "write an .exr"],
-    );
+    refused("bake --lut energy --f0 0.1,0.2 -o a.png", 4, &["one slice in a .png", "choose .exr"]);
     refused("bake --lut energy --ior 0.5", 4, &["at least 1"]);
     refused("bake --lut energy --model charlie", 4, &["albedo stays below 1"]);
     refused("bake --lut energy --channels ab", 4, &["split", "got 'ab'"]);
@@ -251,7 +253,7 @@ fn wrong_values_are_refused_with_what_was_expected() {
     refused("bake --channels rgb", 2, &["ab", "be"]);
     refused("bake --precision f64", 2, &["f16", "unorm8"]);
     refused("bake --precision unorm8", 4, &["f16 or f32 for .exr"]);
-    refused("bake -o table.bmp", 4, &[".exr or .png", "'.bmp'"]);
+    refused("bake -o table.bmp", 4, &[".exr or .png", "'table.bmp'"]);
     refused("bake --format bmp", 2, &["exr, png", "'bmp'"]);
     refused("bake --x nov --y nov", 4, &["x = nov, y = nov"]);
     refused("bake --x mu", 4, &["nov, roughness, alpha, exponent", "got 'mu'"]);
@@ -266,7 +268,13 @@ fn wrong_values_are_refused_with_what_was_expected() {
 fn flags_that_make_no_sense_are_usage_errors() {
     refused("bake --frobnicate", 2, &["--frobnicate"]);
     refused("bake --rule h56 --tolerance 1e-3", 2, &["cannot be used with"]);
-    refused("bake --backend cpu --device llvmpipe", 2, &["leave out --device"]);
+    for command in ["bake", "preview"] {
+        let given = format!("{command} --backend cpu --device llvmpipe");
+        refused(&given, 2, &["leave out the flags of a device"]);
+    }
+    refused("bake --dry-run --quiet", 2, &["--quiet"]);
+    refused("chart table --precision f16", 2, &["flags of a picture, got --precision"]);
+    refused("man bake table", 2, &["no further word, got table", "leave it out"]);
     refused("bake --backend cpu --json -o -", 2, &["write the table to a file"]);
     refused("bake --backend cpu -o - -MD", 2, &["-MF"]);
     refused("frobnicate", 2, &["frobnicate"]);
@@ -359,6 +367,7 @@ fn tables_are_drawn() {
     assert!(String::from_utf8(text).unwrap().starts_with("E: 0 to 1.6570"));
     assert!(fs::read(folder.path().join("sheen.png")).unwrap().starts_with(b"\x89PNG"));
     refused("chart table -o sheen.exr", 4, &[".png"]);
+    refused("chart table --lut energy --f0 0.02,0.04 -o split.png", 4, &["one F0"]);
 }
 
 #[test]

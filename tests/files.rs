@@ -35,7 +35,7 @@ fn table(channels: DfgChannels, precision: Precision) -> Table {
 
 /// A table as the bytes of a file with this extension.
 fn encoded(table: &Table, extension: &str) -> Result<Vec<u8>> {
-    encode(table, Format::of_extension(extension)?)
+    encode(table, Format::named(extension)?)
 }
 
 /// Size, (name, values) of each channel, and the metadata of an EXR file.
@@ -179,18 +179,19 @@ fn png_holds_unorms() {
 
 #[test]
 fn several_f0_are_layers_of_one_exr() {
-    let request = |f0, channels, precision| {
+    let f0 = |f0| F0::new(f0).unwrap();
+    let request = |f0, precision| {
         let energy =
-            Energy::new(ggx(Masking::HeightCorrelated), F0::new(f0).unwrap(), channels).unwrap();
+            Energy::new(ggx(Masking::HeightCorrelated), f0, EnergyChannels::Split).unwrap();
         Request::with_default_axes(Lut::Energy(energy), (4, 3), precision).unwrap()
     };
     let bake = |request: Request| bake(&request, &Backend::cpu()).unwrap().table;
-    let tables = [0.5, 0.02].map(|f0| bake(request(f0, EnergyChannels::Split, Precision::F32)));
-    let sliced = |channels, precision| {
-        let slices = Slices::at_f0s(vec![0.5, 0.02]).unwrap();
-        bake(request(0.5, channels, precision).with_slices(slices).unwrap())
+    let tables = [0.5, 0.02].map(|value| bake(request(f0(value), Precision::F32)));
+    let sliced = |f0s: &[F0], precision| {
+        let slices = Slices::at_f0s(f0s).unwrap();
+        bake(request(f0s[0], precision).with_slices(slices).unwrap())
     };
-    let bytes = encoded(&sliced(EnergyChannels::Split, Precision::F32), "exr").unwrap();
+    let bytes = encoded(&sliced(&[f0(0.5), f0(0.02)], Precision::F32), "exr").unwrap();
     let reader = read()
         .no_deep_data()
         .largest_resolution_level()
@@ -211,8 +212,9 @@ fn several_f0_are_layers_of_one_exr() {
         let expected: Vec<f32> = table.plane(0, 1).into_iter().map(|value| value as f32).collect();
         assert_eq!(*green, expected);
     }
-    // Averages, which no storage of a PNG is too small for.
-    let error = encoded(&sliced(EnergyChannels::Average, Precision::Unorm16), "png").unwrap_err();
+    // Two F0 at which no factor exceeds 1, for a storage of a PNG.
+    let table = sliced(&[f0(0.5), f0(0.4)], Precision::Unorm16);
+    let error = encoded(&table, "png").unwrap_err();
     assert!(error.to_string().contains("one slice"), "{error}");
 }
 

@@ -5,8 +5,8 @@
 mod program;
 
 use program::{ok, run, stderr};
-use splitsum::brdf::{Fresnel, Ndf};
-use splitsum::choice::Choice;
+use splitsum::integrate::rules::RULES;
+use splitsum::{BackendChoice, Choice, Diffuse, EnergyChannels, FORMATS, Fresnel, Masking, Ndf};
 use tempfile::{TempDir, tempdir};
 
 fn said(folder: &TempDir, arguments: &str) -> String {
@@ -26,13 +26,32 @@ fn help_tells_the_exit_codes() {
     assert!(said(&folder, "--version").starts_with("splitsum "));
 }
 
+fn words<C: Choice>() -> impl Iterator<Item = &'static str> {
+    C::ALL.iter().map(|choice| choice.word())
+}
+
 #[test]
 fn help_lists_every_word_that_a_flag_takes() {
     let folder = tempdir().unwrap();
     let text = said(&folder, "bake --help");
-    let models = Ndf::ALL.iter().map(|ndf| ndf.word());
-    for word in models.chain(Fresnel::ALL.iter().map(|fresnel| fresnel.word())) {
-        assert!(text.contains(&format!("- {word}:")), "{word}");
+    let words = words::<Ndf>()
+        .chain(words::<Diffuse>())
+        .chain(words::<Masking>())
+        .chain(words::<Fresnel>())
+        .chain(words::<EnergyChannels>())
+        .chain(words::<BackendChoice>())
+        .chain(FORMATS.iter().flat_map(|format| format.precisions()).map(|storage| storage.word()));
+    for word in words {
+        let entry = |line: &str| line.trim_start().starts_with(&format!("- {word}:"));
+        assert_eq!(text.lines().filter(|line| entry(line)).count(), 1, "{word}");
+    }
+    // Words that explain themselves stand in a list, which runs over several lines.
+    let flat = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let lists = flat.split("[possible values: ").skip(1).filter_map(|rest| rest.split(']').next());
+    let listed: Vec<&str> = lists.flat_map(|list| list.split(", ")).collect();
+    let rules = RULES.iter().map(|rule| rule.name);
+    for word in rules.chain(FORMATS.iter().map(|format| format.extension())) {
+        assert!(listed.contains(&word), "{word} is not in {listed:?}");
     }
 }
 

@@ -49,6 +49,19 @@ fn a_dry_run_names_the_stages_that_a_bake_then_takes_and_writes_nothing() {
 }
 
 #[test]
+fn a_command_that_a_plan_prints_can_be_given_again() {
+    let folder = tempdir().unwrap();
+    for given in ["--lut energy --f0=-0", "--lut energy --f0 0.02,0.04", "--lut energy --ior 1.5"] {
+        let plan = ok(&folder, &format!("bake --backend cpu --dry-run --size 4 {given}")).stdout;
+        let plan = String::from_utf8(plan).unwrap();
+        let command =
+            plan.lines().find_map(|line| line.strip_prefix("command   splitsum ")).unwrap();
+        let again = ok(&folder, &format!("{command} --backend cpu --dry-run")).stdout;
+        assert_eq!(String::from_utf8(again).unwrap(), plan, "{given}");
+    }
+}
+
+#[test]
 fn a_dry_run_says_how_large_the_table_is() {
     let folder = tempdir().unwrap();
     let plan = ok(&folder, "bake --dry-run --backend cpu --size 512x256 --channels be");

@@ -39,7 +39,7 @@ fn openexr_reads(python: &std::ffi::OsStr) -> Result<(), Failed> {
     let table = splitsum::bake(&request, &Backend::cpu())?.table;
     let folder = tempfile::tempdir()?;
     let file = folder.path().join("dfg.exr");
-    std::fs::write(&file, encode(&table, Format::of_extension("exr")?)?)?;
+    std::fs::write(&file, encode(&table, Format::named("exr")?)?)?;
     let output = Command::new(python).args(["-c", SCRIPT]).arg(&file).output()?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     if !output.status.success() {

@@ -13,8 +13,9 @@ fn blocks<'a>(readme: &'a str, language: &'a str) -> impl Iterator<Item = &'a st
 }
 
 #[test]
-fn the_commands_of_the_readme_work() {
-    let readme = include_str!("../README.md");
+fn the_commands_of_the_readme_and_of_its_pages_work() {
+    let readme = [include_str!("../README.md"), include_str!("../docs/models.md")].join("\n");
+    let readme = readme.as_str();
     let folder = tempfile::tempdir().unwrap();
     let config = blocks(readme, "toml").next().unwrap();
     std::fs::write(folder.path().join("luts.toml"), config).unwrap();
@@ -42,7 +43,7 @@ fn the_commands_of_the_readme_work() {
         );
         count += 1;
     }
-    assert!(count >= 18, "only {count} commands found");
+    assert!(count >= 24, "only {count} commands found");
     assert!(folder.path().join("out/dfg.exr").exists());
 }
 

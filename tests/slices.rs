@@ -73,7 +73,7 @@ fn a_slice_has_a_claim_of_its_own() {
     // F0 = 1 leaves nothing for a diffuse base: the whole request is refused.
     let request = Request::with_default_axes(energy(0.5), (4, 4), Precision::F16).unwrap();
     assert!(request.clone().with_slices(Slices::along(&axis).unwrap()).is_err());
-    let slices = Slices::at_f0s(vec![0.02, 0.5]).unwrap();
+    let slices = Slices::at_f0s(&[0.02, 0.5].map(|f0| F0::new(f0).unwrap())).unwrap();
     let request = request.with_slices(slices).unwrap();
     assert_eq!((request.texels(), request.bytes()), (32, 32 * 3 * 2));
     let table = splitsum::bake(&request, &Backend::cpu()).unwrap().table;
@@ -91,9 +91,10 @@ fn a_slice_has_a_claim_of_its_own() {
 fn slices_that_no_table_or_file_has_are_refused() {
     let folder = tempdir().unwrap();
     for (arguments, said) in [
-        ("bake --z f0 -o a.exr", "leave out f0, ior and z"),
+        ("bake --z f0 --size 4x4x2 -o a.exr", "bake the split of energy"),
         ("bake --lut energy --z nov --size 4x4x2 -o a.exr", "lay n.v and roughness along x and y"),
         ("bake --lut energy --z f0 --size 4 -o a.exr", "slices"),
+        ("bake --lut energy --channels turquin --z f0 --size 4x4x2 -o a.exr", "bake the split"),
         ("bake --lut energy --z f0 --size 4x4x65 -o a.exr", "1 to 64 slices, got 65"),
         ("bake --lut energy --size 4x4x2 -o a.exr", "add a z axis"),
         ("bake --lut energy --x f0 -o a.exr", "x = f0"),
@@ -104,4 +105,5 @@ fn slices_that_no_table_or_file_has_are_refused() {
         assert!(stderr(&output).contains(said), "{arguments}: {}", stderr(&output));
     }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    assert!(Slices::at_f0s(&[F0::new(0.04).unwrap()]).is_err());
 }

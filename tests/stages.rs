@@ -19,6 +19,7 @@ use splitsum::table::axis::Axis;
 use splitsum::table::grid::Grid;
 use splitsum::table::precision::Precision;
 use splitsum::units::F0;
+use splitsum::{Accuracy, Request};
 
 fn grid(columns: usize, rows: usize) -> Grid {
     let axis = |words: &str, size| Axis::new(words.parse().unwrap(), size).unwrap();
@@ -77,6 +78,22 @@ fn a_rule_that_keeps_less_than_it_promises_is_found_out_by_the_next() {
     let error = through(coarse.promising(1e-6)).unwrap_err();
     assert_eq!(error.exit_code(), ExitCode::CheckFailed);
     assert!(error.to_string().contains("rule h56 beside reference"), "{error}");
+    // Only the tests of what guards bounds may have such a rule: no table is baked by it.
+    let request = Request::with_default_axes(lut, (4, 4), Precision::F16).unwrap();
+    let promised = request.stored(Accuracy::Rule(coarse.promising(1e-6)), Precision::F16);
+    assert!(promised.unwrap_err().to_string().contains("its own bounds"));
+    assert!(request.stored(Accuracy::Rule(coarse), Precision::F16).is_ok());
+}
+
+#[test]
+fn the_report_of_a_stage_tells_the_widest_bound_on_the_grid() {
+    let lobe = Microfacet { ndf: Ndf::Charlie, masking: Masking::Neubelt };
+    let (lut, smooth) = (ab(lobe), Grid::of(vec![0.5], vec![1e-4, 0.25]));
+    for (grid, reference) in [(smooth, 2e-6), (grid(2, 2), 1e-13)] {
+        let task = task(&lut, &grid, Precision::F16);
+        let stages = certify_by(&task, &Stages::by(&task, &[REFERENCE]), None).unwrap().stages;
+        assert_eq!(stages[0].error, reference);
+    }
 }
 
 #[test]

@@ -137,15 +137,12 @@ fn devices() {
         }
     }
     let backend = Backend::cpu();
-    let (baked, time) = timed(|| splitsum::bake(&request(512, Precision::F16), &backend).unwrap());
+    let baked = splitsum::bake(&request(512, Precision::F16), &backend).unwrap();
     let hash = baked
         .table
         .claim(0)
         .certificate()
         .map(|certificate| certificate.blake3.clone())
         .unwrap_or_default();
-    println!(
-        "\nThe certified table of 512 x 512 in half: {:.1} ms on the CPU, BLAKE3 {hash}",
-        1e3 * time
-    );
+    println!("\nThe certified table of 512 x 512 in half has BLAKE3 {hash}");
 }

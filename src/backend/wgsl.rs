@@ -63,8 +63,12 @@ fn smooth_limit(mu: f32) -> f32 {{ return {limit}; }}
         wgsl.width, wgsl.slope_end, wgsl.slope_density, wgsl.projected_area
     );
     // A distribution may take functions of another's module.
-    let mut models: Vec<&str> = Ndf::ALL.iter().map(|ndf| ndf.definition().wgsl.source).collect();
-    models.dedup();
+    let mut models: Vec<&str> = Vec::new();
+    for source in Ndf::ALL.iter().map(|ndf| ndf.definition().wgsl.source) {
+        if !models.contains(&source) {
+            models.push(source);
+        }
+    }
     let modules =
         [module::SPECIAL, module::MASKING, module::RULE, module::SLOPE_MAP, module::HALF_VECTORS];
     [&models.join("\n"), &modules.join("\n"), &fresnel_source(fresnel), &glue]

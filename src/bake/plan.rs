@@ -58,6 +58,11 @@ impl<'a> Plan<'a> {
         &self.rules
     }
 
+    /// The one rule of a table that is not certified.
+    pub(super) fn rule(&self) -> Option<Rule> {
+        self.device.map(|(_, rule)| rule).or(self.rules.first().copied())
+    }
+
     /// The device and its rule; none where the CPU does it all.
     pub fn device(&self) -> Option<(&Gpu, Rule)> {
         self.device
@@ -72,10 +77,7 @@ impl<'a> Plan<'a> {
     /// nearly every value needs alone, and of the decisions.
     pub fn seconds(&self) -> f64 {
         let request = self.request;
-        let texels = request.grid().len() + texels_of_averages(request);
-        let first =
-            self.rules.first().map_or(0.0, |rule| rule.seconds(request.lut().integrand(), texels));
-        let slice = first + DECISION * request.grid().len() as f64;
+        let slice = seconds_of_first(request, &self.rules) + DECISION * request.grid().len() as f64;
         request.layout().slice_count() as f64 * slice / rayon::current_num_threads() as f64
     }
 }
@@ -142,7 +144,6 @@ fn too_small() -> std::result::Result<Rule, Complaint> {
 
 /// The approximate CPU time that a device would save.
 fn seconds_saved(request: &Request, rules: &[Rule]) -> f64 {
-    let (integrand, texels) = (request.lut().integrand(), request.grid().len());
     let share = match (request.accuracy(), rules.first()) {
         // An interpolant checks every texel of a device.
         (
@@ -152,17 +153,16 @@ fn seconds_saved(request: &Request, rules: &[Rule]) -> f64 {
         (Accuracy::Rounded | Accuracy::Within(_), _) => LEFT_TO_DEVICE,
         (Accuracy::Tolerance(_) | Accuracy::Rule(_), _) => 1.0,
     };
-    let first = rules.first().map_or(0.0, |rule| rule.seconds(integrand, texels));
+    let first = seconds_of_first(request, rules);
     request.layout().slice_count() as f64 * share * first / rayon::current_num_threads() as f64
 }
 
-/// Texels that the averages of a table are integrated at.
-fn texels_of_averages(request: &Request) -> usize {
-    if request.lut().needs_averages() {
-        request.grid().alphas.len() * average_nodes().len()
-    } else {
-        0
-    }
+/// The approximate time of the first of these rules on a slice, averages included, on one thread.
+fn seconds_of_first(request: &Request, rules: &[Rule]) -> f64 {
+    let (lut, grid) = (request.lut(), request.grid());
+    let directions = if lut.needs_averages() { average_nodes().len() } else { 0 };
+    let points = grid.len() + grid.alphas.len() * directions;
+    rules.first().map_or(0.0, |rule| rule.seconds(lut.integrand(), points))
 }
 
 /// Bytes in words.
@@ -193,15 +193,16 @@ impl fmt::Display for Plan<'_> {
                 writeln!(f, "backend   Vulkan, f32: {}{reason}", gpu.info().name)?;
             }
         }
-        let device = self.device.iter().map(|(_, rule)| format!("{} on the device", rule.name));
-        let on_cpu = self.rules.iter().map(|rule| rule.name.to_owned());
         match request.accuracy() {
             Accuracy::Rounded | Accuracy::Within(_) => {
+                let device =
+                    self.device.iter().map(|(_, rule)| format!("{} on the device", rule.name));
+                let on_cpu = self.rules.iter().map(|rule| rule.name.to_owned());
                 let stages = device.chain(on_cpu).collect::<Vec<_>>().join(", then ");
                 writeln!(f, "certified by {stages}: each decides what the one before leaves")?;
             }
             Accuracy::Tolerance(_) | Accuracy::Rule(_) => {
-                let rule = device.chain(on_cpu).next().unwrap_or_default();
+                let rule = self.rule().map_or("none", |rule| rule.name);
                 writeln!(f, "rule      {rule}; not certified")?;
             }
         }

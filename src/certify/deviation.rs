@@ -15,21 +15,21 @@ const RUN: usize = 64;
 /// Texels of a table that are measured against the reference, at half a millisecond each.
 pub const MEASURED: usize = 128;
 
-/// The largest differences over a sample of texels: absolute, or relative where an albedo exceeds
-/// 1.
+/// The largest differences over a sample of points: texels, and the directions of averages.
+/// Absolute, or relative where an albedo exceeds 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Deviation {
     /// The largest of each integral.
     pub largest: Vec<f64>,
-    /// The number of texels.
-    pub texels: usize,
+    /// The number of points.
+    pub points: usize,
 }
 
 impl Deviation {
     /// The deviation over a sample, and the (n·v, α) of the largest.
     fn between(grid: &Grid, sample: &[usize], table: &Field, truth: &Field) -> (Self, (f64, f64)) {
-        let mut worst = Deviation { largest: vec![0.0; truth.count()], texels: sample.len() };
+        let mut worst = Deviation { largest: vec![0.0; truth.count()], points: sample.len() };
         let mut at = grid.point(0);
         for (&index, truth) in sample.iter().zip(truth.iter()) {
             let scale = scale(truth);
@@ -39,7 +39,7 @@ impl Deviation {
             if largest(&differences) > worst.max() {
                 at = grid.point(index);
             }
-            worst = worst.merge(Deviation { largest: differences, texels: 0 });
+            worst = worst.merge(Deviation { largest: differences, points: 0 });
         }
         (worst, at)
     }
@@ -48,7 +48,7 @@ impl Deviation {
     pub fn merge(mut self, other: Deviation) -> Deviation {
         self.largest.resize(self.largest.len().max(other.largest.len()), 0.0);
         self.largest.iter_mut().zip(other.largest).for_each(|(own, other)| *own = own.max(other));
-        Deviation { texels: self.texels + other.texels, ..self }
+        Deviation { points: self.points + other.points, ..self }
     }
 
     /// The largest of all integrals.

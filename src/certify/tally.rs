@@ -42,6 +42,9 @@ impl Tally {
         for (i, stage) in other.stages.into_iter().enumerate() {
             match self.stages.get_mut(i) {
                 Some(own) => {
+                    let larger = |(own, other): (&mut f64, f64)| *own = own.max(other);
+                    larger((&mut own.error, stage.error));
+                    own.error_by_decade.iter_mut().zip(stage.error_by_decade).for_each(larger);
                     own.texels += stage.texels;
                     own.decided = own.decided.zip(stage.decided).map(|(a, b)| a + b);
                 }

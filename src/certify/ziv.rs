@@ -206,7 +206,7 @@ impl Run<'_> {
     fn note(&mut self, by: String, errors: &Errors, texels: usize, verdict: Verdict) {
         let decided = self.stages.rounds_correctly.then_some(verdict.decided);
         self.tally.error = verdict.error;
-        self.tally.stages.push(summary(by, errors, texels, decided));
+        self.tally.stages.push(summary(by, errors, self.task.grid, texels, decided));
     }
 
     /// Compares the integrals of a stage with those of the one before it, and with the device's.

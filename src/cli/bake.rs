@@ -5,8 +5,8 @@ mod names;
 use super::device_args::DeviceArgs;
 use super::table_args::{Job, TableArgs};
 use super::{config, depfile, output, progress::Progress, resources, standard_output, usage};
+use crate::backend::Backend;
 use crate::backend::device::GpuOptions;
-use crate::backend::{Backend, BackendChoice};
 use crate::bake::Plan;
 use crate::error::Result;
 use crate::format::metadata::TOOL;
@@ -34,7 +34,7 @@ pub struct BakeArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// Print the plan, with sizes and the expected time, and bake nothing
-    #[arg(long, conflicts_with_all = ["json", "md", "mf", "mt"])]
+    #[arg(long, conflicts_with_all = ["json", "quiet", "md", "mf", "mt"])]
     dry_run: bool,
     /// Print the report as JSON on standard output
     #[arg(long)]
@@ -83,7 +83,9 @@ pub fn run(arguments: BakeArgs) -> Result<()> {
     names::check(&arguments, &jobs, depfile.as_deref())?;
     let bytes = resources::of_bakes(&jobs);
     resources::start(bytes, arguments.threads.map(usize::from), resources::FEWER)?;
-    let backend = open(&arguments, bytes)?;
+    let tile = arguments.tile.map(|tile| tile as usize);
+    let options = GpuOptions { validate: arguments.validate, tile, ..GpuOptions::default() };
+    let backend = arguments.device.open(options, bytes)?;
     if arguments.dry_run {
         return print_plans(&jobs, &backend);
     }
@@ -140,17 +142,6 @@ fn bake(job: &Job, backend: &Backend, arguments: &BakeArgs) -> Result<Vec<Baked>
         }
     }
     Ok(baked.reports.into_iter().map(|report| Baked { output: output.clone(), report }).collect())
-}
-
-fn open(arguments: &BakeArgs, bytes: u64) -> Result<Backend> {
-    let DeviceArgs { backend, device } = &arguments.device;
-    let tile = arguments.tile.map(|tile| tile as usize);
-    let options = GpuOptions { device: device.clone(), validate: arguments.validate, tile };
-    if *backend == BackendChoice::Cpu && options != GpuOptions::default() {
-        let cure = "leave out --device, --validate and --tile, or choose --backend vulkan";
-        return Err(usage("--backend cpu", "flags of the CPU", "flags of a device", cure));
-    }
-    resources::open_backend(*backend, &options, bytes)
 }
 
 fn dependency_file(arguments: &BakeArgs, jobs: &[Job]) -> Result<Option<String>> {

@@ -6,7 +6,7 @@ mod stability;
 mod table;
 
 use super::progress::Progress;
-use super::table_args::{DEFAULT_OUTPUT, TableArgs};
+use super::table_args::{FLAGS_OF_FILES, TableArgs};
 use super::{output, place, resources, usage};
 use crate::backend::Gpu;
 use crate::backend::device::DeviceInfo;
@@ -20,12 +20,12 @@ use clap::Subcommand;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fs;
-use std::path::Path;
 
 #[derive(Subcommand)]
 pub enum ChartArgs {
     /// Draw a table: a panel for each channel, dark at 0, yellow at the channel's largest value,
     /// which is printed
+    #[command(mut_args(of_picture))]
     Table(Box<TableArgs>),
     /// Measure speed against accuracy, the field's estimators beside ours, on this CPU and on every
     /// Vulkan device
@@ -52,7 +52,7 @@ pub struct StudyArgs {
     cpu: bool,
     /// The folder for the charts (SVG and PNG), a page about them (Markdown) and the measurements
     /// (JSON; of speed CSV too)
-    #[arg(short, long, value_name = "FOLDER", default_value = "out")]
+    #[arg(short, long, value_name = "FOLDER", default_value = output::DEFAULT_FOLDER)]
     output: String,
     /// Measure nothing, and draw what this JSON file of an earlier run holds
     #[arg(long, value_name = "FILE", conflicts_with_all = ["quick", "device", "cpu"])]
@@ -60,6 +60,15 @@ pub struct StudyArgs {
     /// Show no progress
     #[arg(short, long)]
     quiet: bool,
+}
+
+/// The flags of a table as those of its picture.
+fn of_picture(argument: clap::Arg) -> clap::Arg {
+    match argument.get_id().as_str() {
+        "output" => argument.help("Picture to write, a .png [default: out/dfg.png]"),
+        name if FLAGS_OF_FILES.contains(&name) => argument.hide(true),
+        _ => argument,
+    }
 }
 
 /// The memory of a study on the CPU, about; a device's driver has memory of its own.
@@ -93,10 +102,6 @@ impl StudyArgs {
     /// The folder, once it is known that the files can be written there.
     fn folder(&self, files: &[impl AsRef<str>]) -> Result<String> {
         let folder = self.output.trim_end_matches(std::path::is_separator);
-        if Path::new(DEFAULT_OUTPUT).parent() == Some(Path::new(folder)) {
-            let failed = Error::io("create the folder", folder, "choose another with -o");
-            fs::create_dir_all(folder).map_err(failed)?;
-        }
         let paths = files.iter().map(|file| format!("{folder}/{}", file.as_ref()));
         let mut written = place::Files::default();
         if let Some(file) = &self.from {

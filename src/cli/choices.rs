@@ -27,14 +27,15 @@ pub fn channels() -> impl TypedValueParser<Value = String> {
             .help(format!("of dfg, {fresnel}: {}", definition.albedo))
     };
     let of_dfg = [
-        PossibleValue::new("be").help("of dfg: B and E = A + B, the multiple-scattering packing"),
+        PossibleValue::new("be")
+            .help("of dfg, schlick: B and E = A + B, the multiple-scattering packing"),
         PossibleValue::new("e").help("of dfg: E alone"),
     ];
     let of_energy = |channels: &EnergyChannels| {
         PossibleValue::new(channels.word()).help(format!("of energy: {}", channels.about()))
     };
     let all = Fresnel::ALL.iter().map(letters).chain(of_dfg);
-    PossibleValuesParser::new(all.chain(EnergyChannels::ALL.iter().map(of_energy)))
+    PossibleValuesParser::new(distinct(all.chain(EnergyChannels::ALL.iter().map(of_energy))))
 }
 
 /// The parser of a rule's name.
@@ -44,13 +45,24 @@ pub fn rule() -> impl TypedValueParser<Value = String> {
 
 /// The parser of a file format.
 pub fn format() -> impl TypedValueParser<Value = String> {
-    PossibleValuesParser::new(FORMATS.iter().map(|format| PossibleValue::new(format.extension)))
+    PossibleValuesParser::new(FORMATS.iter().map(|format| PossibleValue::new(format.extension())))
 }
 
 /// The parser of a storage: those that a format has.
 pub fn precision() -> impl TypedValueParser<Value = Precision> {
-    let known = FORMATS.iter().flat_map(|format| format.precisions).map(value);
-    PossibleValuesParser::new(known).try_map(|word| Precision::named(&word))
+    let known = FORMATS.iter().flat_map(|format| format.precisions()).map(value);
+    PossibleValuesParser::new(distinct(known)).try_map(|word| Precision::named(&word))
+}
+
+/// Each word once, at its first place.
+fn distinct(values: impl Iterator<Item = PossibleValue>) -> Vec<PossibleValue> {
+    let mut distinct: Vec<PossibleValue> = Vec::new();
+    for value in values {
+        if distinct.iter().all(|known| known.get_name() != value.get_name()) {
+            distinct.push(value);
+        }
+    }
+    distinct
 }
 
 fn value<C: Choice>(choice: &C) -> PossibleValue {

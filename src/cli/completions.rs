@@ -31,10 +31,9 @@ pub fn print_manual(ManArgs { path }: &ManArgs) -> Result<()> {
     for name in path {
         let known =
             page.get_subcommands().map(|command| command.get_name().to_owned()).collect::<Vec<_>>();
-        page = page.find_subcommand(name).cloned().ok_or_else(|| {
-            let expected =
-                if known.is_empty() { "no further command".into() } else { known.join(", ") };
-            super::usage("command", &expected, name, "name one of these")
+        page = page.find_subcommand(name).cloned().ok_or_else(|| match known.is_empty() {
+            true => super::usage("command", "no further word", name, "leave it out"),
+            false => super::usage("command", &known.join(", "), name, "name one of these"),
         })?;
     }
     let mut text = Vec::new();

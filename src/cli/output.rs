@@ -15,6 +15,9 @@ use std::path::Path;
 /// size, then on the disk.
 const SPOOLED: usize = 1 << 24;
 
+/// The folder of the default outputs, which is made where it is missing.
+pub const DEFAULT_FOLDER: &str = "out";
+
 /// The cure where a file cannot be written.
 const CURE: &str = "make room or choose another place with -o";
 
@@ -38,7 +41,7 @@ pub fn check(name: &str) -> Result<()> {
             io::ErrorKind::IsADirectory,
         )));
     }
-    if name == super::table_args::DEFAULT_OUTPUT {
+    if folder_of(path) == Path::new(DEFAULT_FOLDER) {
         let failed = Error::io("create the folder of", name, "choose another place with -o");
         fs::create_dir_all(folder_of(path)).map_err(failed)?;
     }

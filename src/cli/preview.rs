@@ -55,9 +55,7 @@ pub fn run(arguments: &PreviewArgs) -> Result<()> {
     let bytes = (ROUGHNESSES.len() * size * size * (24 + 6 * 6) + (16 << 20)) as u64;
     resources::start(bytes, None, resources::ALLOW)?;
     let rows = rows(arguments.scene)?;
-    let DeviceArgs { backend, device } = &arguments.device;
-    let options = GpuOptions { device: device.clone(), ..GpuOptions::default() };
-    let backend = resources::open_backend(*backend, &options, bytes)?;
+    let backend = arguments.device.open(GpuOptions::default(), bytes)?;
     let progress = Progress::of_pixels(name, rows.len() * ROUGHNESSES.len() * size * size);
     let picture = render(&rows, size, &backend, &|pixels| progress.advance(pixels))?;
     drop(progress);

@@ -1,21 +1,24 @@
 //! The description of a table, as flags and as the keys of a configuration: the same names for
 //! both.
 
+mod family;
+mod values;
+
+use self::family::Family;
+use self::values::{Numbers, Size};
 use super::choices;
-use crate::brdf::{Diffuse, Fresnel, Masking, Microfacet, Ndf};
-use crate::choice::{Choice, choice};
+use crate::brdf::{Fresnel, Masking};
+use crate::choice::choice;
 use crate::error::{Error, Result};
 use crate::format::{FORMATS, Format};
 use crate::integrate::rule::Rule;
-use crate::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
+use crate::lut::Lut;
 use crate::request::{Accuracy, DEFAULT_SIZE, Request};
 use crate::table::axis::{Axis, AxisSpec, Parameter};
 use crate::table::precision::Precision;
 use crate::table::slices::Slices;
 use crate::units::{F0, Ior};
 use serde::Deserialize;
-use std::fmt;
-use std::path::Path;
 
 /// The table; everything has a default.
 #[derive(Clone, Debug, Default, clap::Args, Deserialize)]
@@ -59,7 +62,7 @@ pub struct TableArgs {
     /// roughness]
     #[arg(long, value_name = "AXIS")]
     y: Option<String>,
-    /// The axis from slice to slice, in the same words: PARAMETER f0 [default: none]
+    /// The axis from slice to slice of a split, in the same words: PARAMETER f0 [default: none]
     #[arg(long, value_name = "AXIS")]
     z: Option<String>,
     /// Storage of the values [default: the first for the format]
@@ -92,23 +95,6 @@ pub struct TableArgs {
     pub output: Option<String>,
 }
 
-/// A family of tables by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Family {
-    Dfg,
-    Sheen,
-    Energy,
-    Diffuse,
-}
-
-choice!(Family, "lut", {
-    Dfg = "dfg", "the split sum, E(F0) = F0*A + B (Karis 2013)";
-    Sheen = "sheen", "the same with charlie and E alone";
-    Energy = "energy", "the energy that a specular lobe leaves and loses (Kulla and Conty 2017; \
-                        Turquin 2019)";
-    Diffuse = "diffuse", "the albedo of a white diffuse lobe";
-});
-
 /// On or off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Switch {
@@ -121,33 +107,15 @@ choice!(Switch, "certify", {
     Off = "off", "check a sample";
 });
 
-/// A table's size as users write it.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(untagged)]
-pub enum Size {
-    /// One number for a square.
-    Square(i64),
-    /// Text, with columns, rows and slices.
-    Text(String),
-}
-
-/// One number or several as users write them.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(untagged)]
-pub enum Numbers {
-    /// One.
-    One(f64),
-    /// A list.
-    List(Vec<f64>),
-    /// Text, with commas between.
-    Text(String),
-}
-
 /// The default output.
-pub const DEFAULT_OUTPUT: &str = if cfg!(feature = "exr") { "out/dfg.exr" } else { "out/dfg.png" };
+const DEFAULT_OUTPUT: &str = if cfg!(feature = "exr") { "out/dfg.exr" } else { "out/dfg.png" };
 
 /// F0 of most dielectrics: an index of refraction of 1.5.
 const DEFAULT_F0: f64 = 0.04;
+
+/// The flags that [`TableArgs::flag_of_files`] finds.
+#[cfg(feature = "compare")]
+pub const FLAGS_OF_FILES: [&str; 6] = ["z", "precision", "certify", "tolerance", "rule", "format"];
 
 /// A table to bake, its format and its file.
 #[derive(Clone, Debug)]
@@ -163,94 +131,53 @@ impl TableArgs {
     pub fn job(&self) -> Result<Job> {
         let output = self.output.clone().unwrap_or_else(|| DEFAULT_OUTPUT.into());
         let format = match &self.format {
-            Some(name) => Format::of_extension(name)?,
+            Some(name) => Format::named(name)?,
             None if output == "-" => &FORMATS[0],
-            None => {
-                let extension = Path::new(&output).extension().unwrap_or_default();
-                Format::of_extension(&extension.to_string_lossy())?
-            }
+            None => Format::of_file(&output)?,
         };
         let precision = format.precision(self.precision)?;
+        let request = self.request(precision, |lut| self.accuracy(lut, precision))?;
+        let layout = request.layout();
+        format.check(layout.slice_count(), layout.channels.len())?;
+        Ok(Job { request, format, output })
+    }
+
+    /// The checked request for a table in this storage.
+    pub fn request(
+        &self,
+        precision: Precision,
+        accuracy: impl Fn(&Lut) -> Result<Accuracy>,
+    ) -> Result<Request> {
         let (columns, rows, depth) =
             self.size.as_ref().map_or(Ok((DEFAULT_SIZE, DEFAULT_SIZE, None)), Size::parse)?;
         let (x, y) = self.axes(columns, rows)?;
         let f0s = self.f0s()?;
-        let lut = self.lut(f0s[0])?;
-        let mut request = Request::new(lut, x, y, self.accuracy(&lut, precision)?, precision)?;
-        if let Some(slices) = self.slices(&f0s, depth)? {
-            format.check(slices.count(), lut.channels().len())?;
-            request = request.with_slices(slices)?;
+        let lut = self.family(f0s[0])?;
+        if lut.f0().is_none() && (self.f0.is_some() || self.ior.is_some()) {
+            let got = format!("{} with channels {}", lut.name(), names(&lut));
+            let cure = "leave out f0 and ior: the other tables serve every F0";
+            return Err(Error::bad_input("f0", "the split of energy", got, cure));
         }
-        Ok(Job { request, format, output })
-    }
-
-    fn lut(&self, f0: F0) -> Result<Lut> {
-        let family = self.lut.unwrap_or(Family::Dfg);
-        if family != Family::Energy && (self.f0.is_some() || self.ior.is_some() || self.z.is_some())
-        {
-            let cure = "leave out f0, ior and z: the other tables serve every F0";
-            return Err(Error::bad_input(
-                "lut",
-                "energy where f0, ior or z is given",
-                family.word(),
-                cure,
-            ));
-        }
-        let no_fresnel = |lut: Result<Lut>| match self.fresnel {
-            None | Some(Fresnel::Schlick) => lut,
-            Some(fresnel) => {
-                let got = fresnel.word();
-                Err(Error::bad_input(
-                    "fresnel",
-                    "schlick for energy and diffuse",
-                    got,
-                    "leave it out",
-                ))
-            }
-        };
-        match family {
-            Family::Dfg => self.dfg(Ndf::Ggx, None),
-            Family::Sheen => self.dfg(Ndf::Charlie, Some("e")),
-            Family::Energy => {
-                let channels = self
-                    .channels
-                    .as_deref()
-                    .map_or(Ok(EnergyChannels::Split), EnergyChannels::named)?;
-                no_fresnel(Energy::new(self.lobe(Ndf::Ggx)?, f0, channels).map(Lut::Energy))
-            }
-            Family::Diffuse => {
-                if self.masking.is_some() || self.channels.is_some() {
-                    let got = "masking or channels";
-                    return Err(Error::bad_input(
-                        "lut",
-                        "a model alone for diffuse",
-                        got,
-                        "leave them out",
-                    ));
-                }
-                no_fresnel(
-                    self.model
-                        .as_deref()
-                        .map_or(Ok(Diffuse::Burley), Diffuse::named)
-                        .map(Lut::Diffuse),
-                )
-            }
+        let request = Request::new(lut, x, y, accuracy(&lut)?, precision)?;
+        match self.slices(&f0s, depth)? {
+            Some(slices) => request.with_slices(slices),
+            None => Ok(request),
         }
     }
 
-    /// The integrals of a specular lobe; without other channels all of them.
-    fn dfg(&self, default: Ndf, channels: Option<&str>) -> Result<Lut> {
-        let (lobe, fresnel) = (self.lobe(default)?, self.fresnel.unwrap_or(Fresnel::Schlick));
-        let dfg = match self.channels.as_deref().or(channels) {
-            Some(word) => Dfg::with_channels(lobe, fresnel, word),
-            None => Dfg::new(lobe, fresnel, DfgChannels::All),
-        };
-        dfg.map(Lut::Dfg)
-    }
-
-    fn lobe(&self, default: Ndf) -> Result<Microfacet> {
-        let ndf = self.model.as_deref().map_or(Ok(default), Ndf::named)?;
-        Microfacet::new(ndf, self.masking)
+    /// The first of the flags that a picture does not follow: it has no storage, no certificate and
+    /// no slices.
+    #[cfg(feature = "compare")]
+    pub fn flag_of_files(&self) -> Option<&'static str> {
+        let given = [
+            self.z.is_some(),
+            self.precision.is_some(),
+            self.certify.is_some(),
+            self.tolerance.is_some(),
+            self.rule.is_some(),
+            self.format.is_some(),
+        ];
+        FLAGS_OF_FILES.into_iter().zip(given).find_map(|(flag, given)| given.then_some(flag))
     }
 
     /// F0 of each slice; of a table over two axes its own.
@@ -288,9 +215,7 @@ impl TableArgs {
                 let cure = "add a z axis, as in --z f0";
                 Err(Error::bad_input("size", "columns and rows without a z axis", "slices", cure))
             }
-            (None, None) if f0s.len() > 1 => {
-                Slices::at_f0s(f0s.iter().map(|f0| f0.get()).collect()).map(Some)
-            }
+            (None, None) if f0s.len() > 1 => Slices::at_f0s(f0s).map(Some),
             (None, None) => Ok(None),
         }
     }
@@ -331,69 +256,7 @@ impl TableArgs {
     }
 }
 
-impl Size {
-    /// Columns, rows and, where they are named, slices.
-    fn parse(&self) -> Result<(usize, usize, Option<usize>)> {
-        let text = self.to_string();
-        let numbers: Option<Vec<usize>> =
-            text.split('x').map(|number| number.trim().parse().ok()).collect();
-        match numbers.as_deref() {
-            Some(&[side]) => Ok((side, side, None)),
-            Some(&[columns, rows]) => Ok((columns, rows, None)),
-            Some(&[columns, rows, slices]) => Ok((columns, rows, Some(slices))),
-            _ => {
-                let expected = "a number, or two or three with an x between";
-                Err(Error::bad_input(
-                    "size",
-                    expected,
-                    format!("'{text}'"),
-                    "as in 128, 64x32 or 64x64x16",
-                ))
-            }
-        }
-    }
-}
-
-impl Numbers {
-    /// The numbers.
-    fn parse(&self) -> Result<Vec<f64>> {
-        let numbers = match self {
-            Numbers::One(number) => vec![*number],
-            Numbers::List(numbers) => numbers.clone(),
-            Numbers::Text(text) => {
-                let number = |word: &str| word.trim().parse().ok();
-                text.split(',').map(number).collect::<Option<Vec<f64>>>().unwrap_or_default()
-            }
-        };
-        if !numbers.is_empty() {
-            return Ok(numbers);
-        }
-        let got = match self {
-            Numbers::Text(text) => format!("'{text}'"),
-            Numbers::One(_) | Numbers::List(_) => "none".to_owned(),
-        };
-        let expected = "numbers with commas between";
-        Err(Error::bad_input("f0", expected, got, "as in 0.02,0.04,0.08"))
-    }
-}
-
-impl From<String> for Numbers {
-    fn from(text: String) -> Self {
-        Numbers::Text(text)
-    }
-}
-
-impl fmt::Display for Size {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Size::Square(n) => write!(f, "{n}"),
-            Size::Text(text) => f.write_str(text),
-        }
-    }
-}
-
-impl From<String> for Size {
-    fn from(text: String) -> Self {
-        Size::Text(text)
-    }
+/// The names of a table's channels with commas between.
+fn names(lut: &Lut) -> String {
+    lut.channels().iter().map(|channel| channel.name).collect::<Vec<_>>().join(", ")
 }

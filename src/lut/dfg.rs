@@ -42,35 +42,20 @@ impl Dfg {
     /// Refuses a masking term that has no meaning for the distribution, and channels that the
     /// Fresnel model has not.
     pub fn new(lobe: Microfacet, fresnel: Fresnel, channels: DfgChannels) -> Result<Self> {
-        lobe.check()?;
-        let dfg = Dfg { lobe, fresnel, channels };
-        let count = fresnel.count();
-        let serves = match channels {
-            DfgChannels::All => true,
-            DfgChannels::Be => count == 2,
-            DfgChannels::E => count >= 2,
-        };
-        if serves {
-            return Ok(dfg);
-        }
-        let what = format!("channels of {fresnel}");
-        let all = Dfg { channels: DfgChannels::All, ..dfg }.word();
-        Err(Error::bad_input(what, all, dfg.word(), "choose these, or another Fresnel model"))
+        Dfg::with_channels(lobe, fresnel, channels.word(fresnel))
     }
 
     /// The channels with this word: the letters of the integrals, as in `ab`, or `be` or `e`.
     pub fn with_channels(lobe: Microfacet, fresnel: Fresnel, word: &str) -> Result<Self> {
-        let all = Dfg { lobe, fresnel, channels: DfgChannels::All };
-        match word {
-            "be" => Dfg::new(lobe, fresnel, DfgChannels::Be),
-            "e" => Dfg::new(lobe, fresnel, DfgChannels::E),
-            _ if word == all.word() => Dfg::new(lobe, fresnel, DfgChannels::All),
-            _ => {
-                let (what, expected) =
-                    (format!("channels of {fresnel}"), format!("{}, be, e", all.word()));
-                Err(Error::bad_input(what, expected, format!("'{word}'"), "name one of these"))
-            }
+        lobe.check()?;
+        let served = || DfgChannels::served_by(fresnel);
+        if let Some(channels) = served().find(|channels| channels.word(fresnel) == word) {
+            return Ok(Dfg { lobe, fresnel, channels });
         }
+        let known: Vec<&str> = served().map(|channels| channels.word(fresnel)).collect();
+        let (what, got) = (format!("channels of {fresnel}"), format!("'{word}'"));
+        let cure = "name one of these, or another Fresnel model";
+        Err(Error::bad_input(what, known.join(", "), got, cure))
     }
 
     /// The lobe.
@@ -85,11 +70,7 @@ impl Dfg {
 
     /// The word of the channels.
     pub fn word(&self) -> &'static str {
-        match self.channels {
-            DfgChannels::All => self.fresnel.definition().channels,
-            DfgChannels::Be => "be",
-            DfgChannels::E => "e",
-        }
+        self.channels.word(self.fresnel)
     }
 
     /// The flag of the Fresnel model, which Schlick's does not need.
@@ -118,6 +99,27 @@ impl Dfg {
             DfgChannels::All => first(integrals),
             DfgChannels::Be => first(&[integrals[1], integrals[0] + integrals[1]]),
             DfgChannels::E => first(&[integrals[0] + integrals[1]]),
+        }
+    }
+}
+
+impl DfgChannels {
+    /// The channels that suffice for a Fresnel model, or leave out what it does not change: a
+    /// packing of two numbers has no place for a third integral.
+    fn served_by(fresnel: Fresnel) -> impl Iterator<Item = DfgChannels> {
+        let serves = move |channels: &DfgChannels| match channels {
+            DfgChannels::All => true,
+            DfgChannels::Be => fresnel.count() == 2,
+            DfgChannels::E => fresnel.count() >= 2,
+        };
+        [DfgChannels::All, DfgChannels::Be, DfgChannels::E].into_iter().filter(serves)
+    }
+
+    fn word(self, fresnel: Fresnel) -> &'static str {
+        match self {
+            DfgChannels::All => fresnel.definition().channels,
+            DfgChannels::Be => "be",
+            DfgChannels::E => "e",
         }
     }
 }

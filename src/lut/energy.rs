@@ -89,7 +89,7 @@ impl Energy {
         self.lobe
     }
 
-    /// Its reflectance at normal incidence, for the split.
+    /// Its reflectance at normal incidence; only the split depends on it.
     pub fn f0(&self) -> F0 {
         self.f0
     }

@@ -15,7 +15,7 @@ pub enum Claim {
         /// The largest error of a value before it is stored; of values above 1 relative.
         error_bound: f64,
         /// The largest error found against the double-exponential reference, and the number of
-        /// texels compared.
+        /// points compared: texels, and directions of averages.
         measured_error: (f64, usize),
         /// Backend, arithmetic and device.
         computed_by: String,
@@ -57,7 +57,7 @@ pub struct Certificate {
 pub struct Stage {
     /// Backend and rule.
     pub by: String,
-    /// The largest error of an integral.
+    /// The largest error of an integral, wherever the rule has a bound.
     pub error: f64,
     /// The largest error of an integral that vanishes at normal incidence (B), where it is 1, 0.1,
     /// …, 1e-6.

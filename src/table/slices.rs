@@ -33,12 +33,14 @@ impl Slices {
         Slices::new(spec.parameter, axis.values(), Some(spec))
     }
 
-    /// Slices at these F0.
-    pub fn at_f0s(values: Vec<f64>) -> Result<Self> {
-        for &value in &values {
-            F0::new(value)?;
+    /// Slices at these F0, at least two: a table for one has no slices.
+    pub fn at_f0s(values: &[F0]) -> Result<Self> {
+        if values.len() < 2 {
+            let (expected, got) = ("at least 2 values of F0", values.len().to_string());
+            let cure = "give more, or a table without slices";
+            return Err(Error::bad_input("slices", expected, got, cure));
         }
-        Slices::new(Parameter::F0, values, None)
+        Slices::new(Parameter::F0, values.iter().map(|f0| f0.get()).collect(), None)
     }
 
     fn new(parameter: Parameter, values: Vec<f64>, spec: Option<AxisSpec>) -> Result<Self> {

@@ -41,7 +41,7 @@ fn file(lut: Lut, size: usize, precision: Precision, backend: &Backend) -> Resul
     let baked = splitsum::bake(&request, backend)?;
     let extension =
         if precision == Precision::F16 || precision == Precision::F32 { "exr" } else { "png" };
-    Ok(encode(&baked.table, Format::of_extension(extension)?)?)
+    Ok(encode(&baked.table, Format::named(extension)?)?)
 }
 
 fn on(gpu: &Gpu, tile: Option<usize>) -> Result<Backend, Failed> {

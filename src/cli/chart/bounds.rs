@@ -1,6 +1,8 @@
 //! `splitsum chart bounds`
 
 use super::{Devices, STUDY_BYTES, devices};
+use crate::brdf::Fresnel;
+use crate::choice::Choice;
 use crate::cli::progress::Progress;
 use crate::cli::{output, print, resources, standard_output};
 use crate::compare::study::Machine;
@@ -74,7 +76,7 @@ fn page(found: &Search, devices: &Devices, arguments: &BoundsArgs) -> String {
         arguments.seconds, arguments.seed, machine.version, found.points
     );
     for group in found.findings.chunk_by(|a, b| (a.rule, &a.device) == (b.rule, &b.device)) {
-        for integral in INTEGRALS {
+        for integral in integrals() {
             let of_integral = group.iter().filter(|finding| finding.integral == integral);
             text += &of_integral
                 .max_by(|a, b| a.ratio().total_cmp(&b.ratio()))
@@ -90,8 +92,15 @@ fn page(found: &Search, devices: &Devices, arguments: &BoundsArgs) -> String {
         .collect::<String>()
 }
 
-/// The integrals of all Fresnel models.
-const INTEGRALS: [&str; 3] = ["A", "B", "C"];
+/// The names of the integrals of all Fresnel models.
+fn integrals() -> Vec<&'static str> {
+    let of_model = |fresnel: &Fresnel| fresnel.definition().integrals.iter();
+    let mut names: Vec<&str> =
+        Fresnel::ALL.iter().flat_map(of_model).map(|integral| integral.name).collect();
+    names.sort_unstable();
+    names.dedup();
+    names
+}
 
 /// Smaller shares of a bound are left out of the second table.
 const SHOWN: f64 = 0.25;

@@ -5,31 +5,29 @@ use crate::backend::device::GpuOptions;
 use crate::bake::Plan;
 use crate::bake::plan::working_bytes;
 use crate::cli::table_args::TableArgs;
-use crate::cli::{output, resources};
+use crate::cli::{output, resources, usage};
 use crate::error::{Error, Result};
 use crate::image::{panels, sequential};
+use crate::lut::Lut;
 use crate::request::Accuracy;
 use crate::table::precision::Precision;
 
+const DEFAULT_OUTPUT: &str = "out/dfg.png";
+
 pub fn run(table: &TableArgs) -> Result<()> {
-    let job = table.job()?;
-    if job.format.extension != "png" {
-        return Err(Error::bad_input(
-            "output",
-            "a name that ends in .png",
-            job.output,
-            "name a picture with -o",
-        ));
+    if let Some(flag) = table.flag_of_files() {
+        let got = format!("--{flag}");
+        return Err(usage("chart table", "flags of a picture", &got, "leave it out"));
     }
-    output::check(&job.output)?;
+    let output = table.output.as_deref().unwrap_or(DEFAULT_OUTPUT);
+    output::check_picture(output)?;
     // As they are integrated: a storage may not hold what the picture's scale shows.
-    let accuracy = match job.request.accuracy() {
-        Accuracy::Rounded | Accuracy::Within(_) => {
-            Accuracy::uncertified(job.request.lut(), Precision::F64)
-        }
-        accuracy => accuracy,
-    };
-    let request = job.request.stored(accuracy, Precision::F64)?;
+    let uncertified = |lut: &Lut| Ok(Accuracy::uncertified(lut, Precision::F64));
+    let request = table.request(Precision::F64, uncertified)?;
+    if request.layout().slice_count() > 1 {
+        let got = "several";
+        return Err(Error::bad_input("f0", "one F0 for a picture", got, "draw one at a time"));
+    }
     // Of each value the integral, its channel's plane, the same scaled, and three bytes of the
     // picture.
     let values = request.layout().values_of_slice();
@@ -45,7 +43,7 @@ pub fn run(table: &TableArgs) -> Result<()> {
         values.iter().map(|value| value / end).collect()
     };
     let picture = panels(&channels.iter().map(scaled).collect::<Vec<_>>(), size, n, sequential);
-    output::write_picture(&job.output, &picture)?;
+    output::write_picture(output, &picture)?;
     let line = |(channel, values): (usize, &Vec<f64>)| {
         format!("{}: 0 to {:.4}", table.channels()[channel].name, largest(values))
     };

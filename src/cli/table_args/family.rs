@@ -1,0 +1,79 @@
+//! The family of a table and its model, by name.
+
+use super::TableArgs;
+use crate::brdf::{Diffuse, Fresnel, Microfacet, Ndf};
+use crate::choice::{Choice, choice};
+use crate::error::{Error, Result};
+use crate::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
+use crate::units::F0;
+
+/// A family of tables by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    Dfg,
+    Sheen,
+    Energy,
+    Diffuse,
+}
+
+choice!(Family, "lut", {
+    Dfg = "dfg", "the split sum, E(F0) = F0*A + B (Karis 2013)";
+    Sheen = "sheen", "the same with charlie and E alone";
+    Energy = "energy", "the energy that a specular lobe leaves and loses (Kulla and Conty 2017; \
+                        Turquin 2019)";
+    Diffuse = "diffuse", "the albedo of a white diffuse lobe";
+});
+
+impl TableArgs {
+    /// The table; `f0`: that of a table for one.
+    pub(super) fn family(&self, f0: F0) -> Result<Lut> {
+        match self.lut.unwrap_or(Family::Dfg) {
+            Family::Dfg => self.dfg(Ndf::Ggx, None),
+            Family::Sheen => self.dfg(Ndf::Charlie, Some("e")),
+            Family::Energy => {
+                self.check_no_fresnel()?;
+                let channels = self.channels.as_deref().unwrap_or(EnergyChannels::Split.word());
+                let channels = EnergyChannels::named(channels)?;
+                Energy::new(self.lobe(Ndf::Ggx)?, f0, channels).map(Lut::Energy)
+            }
+            Family::Diffuse => {
+                self.check_no_fresnel()?;
+                self.diffuse().map(Lut::Diffuse)
+            }
+        }
+    }
+
+    /// The integrals of a specular lobe; without other channels all of them.
+    fn dfg(&self, ndf: Ndf, channels: Option<&str>) -> Result<Lut> {
+        let (lobe, fresnel) = (self.lobe(ndf)?, self.fresnel.unwrap_or(Fresnel::Schlick));
+        let dfg = match self.channels.as_deref().or(channels) {
+            Some(word) => Dfg::with_channels(lobe, fresnel, word),
+            None => Dfg::new(lobe, fresnel, DfgChannels::All),
+        };
+        dfg.map(Lut::Dfg)
+    }
+
+    fn diffuse(&self) -> Result<Diffuse> {
+        if self.masking.is_some() || self.channels.is_some() {
+            let (expected, got) = ("a model alone for diffuse", "masking or channels");
+            return Err(Error::bad_input("lut", expected, got, "leave them out"));
+        }
+        self.model.as_deref().map_or(Ok(Diffuse::Burley), Diffuse::named)
+    }
+
+    /// The lobe of the model, or by default of this distribution.
+    fn lobe(&self, default: Ndf) -> Result<Microfacet> {
+        let ndf = self.model.as_deref().map_or(Ok(default), Ndf::named)?;
+        Microfacet::new(ndf, self.masking)
+    }
+
+    fn check_no_fresnel(&self) -> Result<()> {
+        match self.fresnel {
+            None | Some(Fresnel::Schlick) => Ok(()),
+            Some(fresnel) => {
+                let expected = "schlick for energy and diffuse";
+                Err(Error::bad_input("fresnel", expected, fresnel.word(), "leave it out"))
+            }
+        }
+    }
+}
