@@ -183,7 +183,7 @@ impl Slice<'_> {
             integrand,
             baker: Baker::new(integrand, &rule),
             gpu: device.map(|(gpu, _)| gpu),
-            measured_texels: MEASURED.div_ceil(self.bands().count()),
+            measured_points: MEASURED.div_ceil(self.bands().count()),
             checked: Checked::default(),
         };
         integration.checked.seconds.integrate += start.elapsed().as_secs_f64();
@@ -213,7 +213,7 @@ impl Slice<'_> {
             computed_by: computed.to_string(),
         };
         let checks = Checks {
-            evaluations: rule.evaluations(grid.len()) as f64 / grid.len() as f64,
+            evaluations: rule.evaluations(plan::points(request)) as f64 / grid.len() as f64,
             cross_check: on_device.then_some(cross_check),
             measured,
             integrals: integrand.names(),

@@ -62,16 +62,9 @@ fn command() -> clap::Command {
     let codes =
         ExitCode::MEANINGS.map(|(code, meaning)| format!("  {}  {meaning}", code as u8)).join("\n");
     let codes = format!("Exit codes:\n{codes}");
-    let with_codes =
-        |command: clap::Command| command.after_help(&codes).mut_args(taking_negative_numbers);
+    let with_codes = |command: clap::Command| command.after_help(&codes);
     with_codes(Cli::command())
         .mut_subcommands(|command| with_codes(command).mut_subcommands(with_codes))
-}
-
-/// Leaves a negative number to the check of the flag's range, whose error says what is expected.
-fn taking_negative_numbers(argument: clap::Arg) -> clap::Arg {
-    let takes_values = argument.get_action().takes_values();
-    argument.allow_negative_numbers(takes_values)
 }
 
 /// Runs the program with these arguments, the first being its name, and returns its exit code.

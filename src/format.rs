@@ -58,7 +58,7 @@ pub const FORMATS: &[Format] = &[
 impl Format {
     /// The format with this word.
     pub fn named(word: &str) -> Result<&'static Format> {
-        find(word).ok_or_else(|| {
+        FORMATS.iter().find(|format| format.extension == word).ok_or_else(|| {
             let known = extensions("", |_| true);
             Error::bad_input("format", known, format!("'{word}'"), "name one of these")
         })
@@ -67,10 +67,18 @@ impl Format {
     /// The format of a file with this name, by its extension.
     pub fn of_file(name: &str) -> Result<&'static Format> {
         let extension = Path::new(name).extension().unwrap_or_default();
-        find(&extension.to_string_lossy()).ok_or_else(|| {
+        let is_its = |format: &&Format| extension.eq_ignore_ascii_case(format.extension);
+        FORMATS.iter().find(is_its).ok_or_else(|| {
             let expected = format!("a name that ends in {}", extensions(".", |_| true));
             Error::bad_input("output", expected, format!("'{name}'"), "rename it")
         })
+    }
+
+    /// The first format with this storage; without a wish, or where none has it, the default one.
+    pub fn of_precision(wanted: Option<Precision>) -> &'static Format {
+        let has =
+            |format: &&Format| wanted.is_none_or(|wanted| format.precisions.contains(&wanted));
+        FORMATS.iter().find(has).unwrap_or(&FORMATS[0])
     }
 
     /// The extension of its files, which is its word too.
@@ -126,10 +134,6 @@ impl Format {
         self.check(table.layout().slice_count(), table.channels().len())?;
         (self.write)(table, file)
     }
-}
-
-fn find(extension: &str) -> Option<&'static Format> {
-    FORMATS.iter().find(|format| extension.eq_ignore_ascii_case(format.extension))
 }
 
 /// The extensions of the formats that `serve`, as in `.exr or .png`.

@@ -106,7 +106,7 @@ pub use lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
 pub use report::{Checks, Computed, Report, Seconds};
 pub use request::{Accuracy, Request};
 pub use table::axis::{Axis, AxisSpec, Mapping, Nodes, Parameter};
-pub use table::claim::{Certificate, Claim, Stage};
+pub use table::claim::{Certificate, Claim, Stage, StageError};
 pub use table::precision::Precision;
 pub use table::slices::Slices;
 pub use table::{Channel, Layout, Provenance, Table};

@@ -70,7 +70,7 @@ impl Lut {
             (Lut::Energy(energy), Parameter::F0) if self.f0().is_some() => {
                 Energy::new(energy.lobe(), F0::new(value)?, energy.channels()).map(Lut::Energy)
             }
-            _ => {
+            (Lut::Dfg(_) | Lut::Energy(_) | Lut::Diffuse(_), _) => {
                 let expected = "a parameter that the table varies with";
                 let cure = "bake the split of energy, or leave the slices out";
                 Err(Error::bad_input("slices", expected, parameter.word(), cure))
@@ -80,7 +80,10 @@ impl Lut {
 
     /// Whether a texel needs the averages over all directions too.
     pub fn needs_averages(&self) -> bool {
-        matches!(self, Lut::Energy(_))
+        match self {
+            Lut::Energy(_) => true,
+            Lut::Dfg(_) | Lut::Diffuse(_) => false,
+        }
     }
 
     /// Whether it is known that no channel exceeds 1.

@@ -99,7 +99,10 @@ impl Report {
                 writeln!(f, "certified {}", certificate.promise)?;
                 for Stage { by, error, texels, decided, .. } in &self.stages {
                     let decided = decided.map_or(String::new(), |decided| format!("{decided} of "));
-                    writeln!(f, "          {decided}{texels} texels by {by}, within {error:.1e}")?;
+                    let within = error.map_or("which has no bound there".into(), |error| {
+                        format!("within {:.1e}", error.largest)
+                    });
+                    writeln!(f, "          {decided}{texels} texels by {by}, {within}")?;
                 }
                 if let Some(distance) = certificate.smallest_distance {
                     writeln!(

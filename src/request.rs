@@ -13,6 +13,7 @@ use crate::table::axis::{Axis, AxisSpec, Parameter};
 use crate::table::grid::Grid;
 use crate::table::precision::Precision;
 use crate::table::slices::Slices;
+use crate::units::short;
 use std::fmt;
 
 /// The accuracy of a table's values.
@@ -231,10 +232,11 @@ impl fmt::Display for Request {
         let spec = slices.as_ref().and_then(Slices::spec);
         match (slices, spec, self.lut.f0()) {
             (Some(slices), None, _) => {
-                let values: Vec<String> = slices.values().iter().map(f64::to_string).collect();
+                let values: Vec<String> =
+                    slices.values().iter().map(|&value| short(value)).collect();
                 write!(f, " --{} {}", slices.parameter().word(), values.join(","))?;
             }
-            (None, _, Some(f0)) => write!(f, " --f0 {f0}")?,
+            (None, _, Some(f0)) => write!(f, " --f0 {}", short(f0))?,
             _ => (),
         }
         write!(f, " --size {}x{}", x.size(), y.size())?;

@@ -31,9 +31,9 @@ pub const SMALLEST_ALPHA: f64 = 2.5e-19;
 /// n·v = 1e-30 differs from its limit at 0 by less than any rule's bound, unless it has no limit.
 pub const SMALLEST_COSINE: f64 = 1e-30;
 
-/// A number in words of the command line: short where it has a hundred zeros.
-fn short(value: f64) -> String {
-    let text = format!("{value:?}");
+/// A number in words of the command line: short where it has a hundred zeros, and -0 as 0.
+pub(crate) fn short(value: f64) -> String {
+    let text = format!("{:?}", value + 0.0);
     text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 

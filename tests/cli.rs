@@ -59,8 +59,13 @@ fn the_default_output_is_made_with_its_folder() {
     let folder = tempdir().unwrap();
     assert_eq!(stderr(&ok(&folder, &format!("{CPU} -q"))), "");
     assert!(folder.path().join("out/dfg.exr").exists());
-    ok(&folder, "chart table --size 8");
-    assert!(folder.path().join("out/dfg.png").exists());
+    for command in ["chart table --size 8", "bake --backend cpu --size 4 --precision unorm8 -q"] {
+        let folder = tempdir().unwrap();
+        ok(&folder, command);
+        assert!(folder.path().join("out/dfg.png").exists(), "{command}");
+    }
+    let folder = tempdir().unwrap();
+    ok(&folder, &format!("{CPU} -q -o ./out/a.exr"));
 }
 
 #[test]
@@ -208,13 +213,13 @@ fn wrong_values_are_refused_with_what_was_expected() {
     refused("bake --size 0", 4, &["expected 1 to 16384", "got 0"]);
     refused("bake --size 16385", 4, &["got 16385"]);
     refused("bake --size 99999999999999999999", 4, &["a number"]);
-    refused("bake --size -4", 4, &["got '-4'"]);
+    refused("bake --size -4x4", 4, &["got '-4x4'"]);
     refused("bake --size 4x", 4, &["got '4x'", "64x32"]);
     refused("bake --certify off --tolerance 1e-14", 4, &["1e-13 to 0.1"]);
     refused("bake --tolerance 1e-4", 4, &["f16 correctly", "set certify to off"]);
     refused("bake --certify on --rule h56", 4, &["none where values are certified"]);
     refused("bake --certify perhaps", 2, &["possible values: on, off", "'perhaps'"]);
-    refused("bake --precision f32 --tolerance=-1", 4, &["1e-13 to 0.1"]);
+    refused("bake --precision f32 --tolerance -1e-5", 4, &["1e-13 to 0.1"]);
     refused("bake --precision f32 --tolerance inf", 4, &["1e-13 to 0.1"]);
     refused("bake --rule simpson", 2, &["h56", "reference", "'simpson'"]);
     refused("bake --model phong", 2, &["ggx", "blinn-phong", "'phong'"]);
@@ -237,9 +242,15 @@ fn wrong_values_are_refused_with_what_was_expected() {
     refused("bake --lut diffuse --masking implicit", 4, &["leave them out"]);
     refused("bake --lut diffuse --rule h288", 4, &["closed-form"]);
     refused("bake --rule closed-form", 4, &["begins with h"]);
-    refused("bake --f0 0.04", 4, &["the split of energy", "got dfg with channels A, B"]);
-    refused("bake --lut energy --channels average --ior 2", 4, &["got energy with channels A_avg"]);
-    refused("bake --lut energy --f0 -0.5", 4, &["expected 0 to 1, got -0.5"]);
+    refused("bake --f0 0.04", 4, &["f0: expected the split of energy", "got --lut dfg"]);
+    refused(
+        "bake --lut energy --channels average --ior 2",
+        4,
+        &["ior: expected the split", "--channels average"],
+    );
+    refused("bake --lut energy --f0 -1e-3", 4, &["expected 0 to 1, got -0.001"]);
+    refused("bake --lut energy --f0 -.02,0.04", 4, &["expected 0 to 1, got -0.02"]);
+    refused("bake --lut energy --ior -2", 4, &["at least 1", "got -2"]);
     refused("bake --fresnel schlick-f82 --channels be", 4, &["expected abc, e, got 'be'"]);
     refused("bake --lut energy --f0 1", 4, &["less than 1"]);
     refused("bake --lut energy --f0 nan", 4, &["expected 0 to 1"]);
@@ -252,7 +263,7 @@ fn wrong_values_are_refused_with_what_was_expected() {
     refused("bake --masking none", 2, &["height-correlated", "schlick-smith"]);
     refused("bake --channels rgb", 2, &["ab", "be"]);
     refused("bake --precision f64", 2, &["f16", "unorm8"]);
-    refused("bake --precision unorm8", 4, &["f16 or f32 for .exr"]);
+    refused("bake --precision unorm8 -o a.exr", 4, &["f16 or f32 for .exr"]);
     refused("bake -o table.bmp", 4, &[".exr or .png", "'table.bmp'"]);
     refused("bake --format bmp", 2, &["exr, png", "'bmp'"]);
     refused("bake --x nov --y nov", 4, &["x = nov, y = nov"]);
@@ -270,7 +281,7 @@ fn flags_that_make_no_sense_are_usage_errors() {
     refused("bake --rule h56 --tolerance 1e-3", 2, &["cannot be used with"]);
     for command in ["bake", "preview"] {
         let given = format!("{command} --backend cpu --device llvmpipe");
-        refused(&given, 2, &["leave out the flags of a device"]);
+        refused(&given, 2, &["no flag of a device, got --device"]);
     }
     refused("bake --dry-run --quiet", 2, &["--quiet"]);
     refused("chart table --precision f16", 2, &["flags of a picture, got --precision"]);
@@ -367,7 +378,9 @@ fn tables_are_drawn() {
     assert!(String::from_utf8(text).unwrap().starts_with("E: 0 to 1.6570"));
     assert!(fs::read(folder.path().join("sheen.png")).unwrap().starts_with(b"\x89PNG"));
     refused("chart table -o sheen.exr", 4, &[".png"]);
-    refused("chart table --lut energy --f0 0.02,0.04 -o split.png", 4, &["one F0"]);
+    // A row of panels for each slice.
+    let text = ok(&folder, "chart table --lut energy --f0 0.02,0.5 --size 4 -o split.png").stdout;
+    assert!(String::from_utf8(text).unwrap().starts_with("1-F: 0 to 0.9"));
 }
 
 #[test]

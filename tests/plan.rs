@@ -51,7 +51,13 @@ fn a_dry_run_names_the_stages_that_a_bake_then_takes_and_writes_nothing() {
 #[test]
 fn a_command_that_a_plan_prints_can_be_given_again() {
     let folder = tempdir().unwrap();
-    for given in ["--lut energy --f0=-0", "--lut energy --f0 0.02,0.04", "--lut energy --ior 1.5"] {
+    for given in [
+        "--lut energy --f0 -0",
+        "--lut energy --f0 -0,1e-300,0.04",
+        "--lut energy --ior 1.5",
+        "--y roughness,offset=-0",
+        "--precision unorm16",
+    ] {
         let plan = ok(&folder, &format!("bake --backend cpu --dry-run --size 4 {given}")).stdout;
         let plan = String::from_utf8(plan).unwrap();
         let command =

@@ -13,7 +13,7 @@ use splitsum::certify::ziv::DeviceTable;
 use splitsum::error::ExitCode;
 use splitsum::integrate::ScaleBias;
 use splitsum::integrate::rule::{CHARLIE_LIMIT, Rule};
-use splitsum::integrate::rules::REFERENCE;
+use splitsum::integrate::rules::{D10240, REFERENCE};
 use splitsum::lut::{Energy, EnergyChannels, Lut};
 use splitsum::table::axis::Axis;
 use splitsum::table::grid::Grid;
@@ -88,11 +88,17 @@ fn a_rule_that_keeps_less_than_it_promises_is_found_out_by_the_next() {
 #[test]
 fn the_report_of_a_stage_tells_the_widest_bound_on_the_grid() {
     let lobe = Microfacet { ndf: Ndf::Charlie, masking: Masking::Neubelt };
-    let (lut, smooth) = (ab(lobe), Grid::of(vec![0.5], vec![1e-4, 0.25]));
-    for (grid, reference) in [(smooth, 2e-6), (grid(2, 2), 1e-13)] {
-        let task = task(&lut, &grid, Precision::F16);
-        let stages = certify_by(&task, &Stages::by(&task, &[REFERENCE]), None).unwrap().stages;
-        assert_eq!(stages[0].error, reference);
+    let (lut, sheen) = (ab(lobe), |alphas| Grid::of(vec![0.5], alphas));
+    let stage = |grid: &Grid, rule| {
+        let task = task(&lut, grid, Precision::F16);
+        certify_by(&task, &Stages::by(&task, &[rule, REFERENCE]), None).unwrap().stages
+    };
+    // Below roughness 0.07 the other double exponential rules have no bound.
+    let no_bound = stage(&sheen(vec![1e-4]), D10240);
+    assert!(no_bound[0].error.is_none() && no_bound[0].decided == Some(0));
+    for (grid, reference) in [(sheen(vec![1e-4, 0.25]), 2e-6), (sheen(vec![0.25]), 1e-13)] {
+        let stages = stage(&grid, REFERENCE);
+        assert_eq!(stages[0].error.unwrap().largest, reference);
     }
 }
 

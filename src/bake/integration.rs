@@ -20,8 +20,8 @@ pub(super) struct Integration<'a> {
     pub integrand: Integrand,
     pub baker: Baker,
     pub gpu: Option<&'a Gpu>,
-    /// Texels of each grid that are measured against the reference.
-    pub measured_texels: usize,
+    /// Points of each grid that are measured against the reference.
+    pub measured_points: usize,
     pub checked: Checked,
 }
 
@@ -89,7 +89,7 @@ impl Integration<'_> {
             checked.cross_check = std::mem::take(&mut checked.cross_check).merge(found);
         }
         let found =
-            deviation::measure(*integrand, grid, rule, bound, &integrals, self.measured_texels)?;
+            deviation::measure(*integrand, grid, rule, bound, &integrals, self.measured_points)?;
         checked.measured = std::mem::take(&mut checked.measured).merge(found);
         checked.seconds.check += start.elapsed().as_secs_f64();
         Ok(integrals)

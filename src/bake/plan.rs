@@ -159,10 +159,15 @@ fn seconds_saved(request: &Request, rules: &[Rule]) -> f64 {
 
 /// The approximate time of the first of these rules on a slice, averages included, on one thread.
 fn seconds_of_first(request: &Request, rules: &[Rule]) -> f64 {
-    let (lut, grid) = (request.lut(), request.grid());
-    let directions = if lut.needs_averages() { average_nodes().len() } else { 0 };
-    let points = grid.len() + grid.alphas.len() * directions;
-    rules.first().map_or(0.0, |rule| rule.seconds(lut.integrand(), points))
+    let integrand = request.lut().integrand();
+    rules.first().map_or(0.0, |rule| rule.seconds(integrand, points(request)))
+}
+
+/// Points of a slice at which a rule integrates: its texels, and the directions of its averages.
+pub(super) fn points(request: &Request) -> usize {
+    let grid = request.grid();
+    let directions = if request.lut().needs_averages() { average_nodes().len() } else { 0 };
+    grid.len() + grid.alphas.len() * directions
 }
 
 /// Bytes in words.

@@ -20,7 +20,7 @@ pub enum Diffuse {
     Eon,
 }
 
-choice!(Diffuse, "diffuse", {
+choice!(Diffuse, "model", {
     Lambert = "lambert", "the same in every direction (Lambert 1760)";
     Burley = "burley", "Disney's diffuse lobe (Burley 2012)";
     OrenNayar = "oren-nayar", "rough Lambertian facets, the qualitative model (Oren and Nayar \

@@ -12,7 +12,7 @@ use crate::table::grid::Grid;
 /// missing unnoticed.
 const RUN: usize = 64;
 
-/// Texels of a table that are measured against the reference, at half a millisecond each.
+/// Points of a grid that are measured against the reference, at half a millisecond each.
 pub const MEASURED: usize = 128;
 
 /// The largest differences over a sample of points: texels, and the directions of averages.
@@ -125,22 +125,22 @@ pub(super) fn sample(grid: &Grid) -> impl Iterator<Item = usize> {
     corners(grid).into_iter().chain(runs)
 }
 
-/// Measures a table by `rule` against the reference at the corners and at other texels scattered
-/// over it, `texels` in all; an error beyond the `bound` fails.
+/// Measures a table by `rule` against the reference at the corners and at other points scattered
+/// over it, `points` in all; an error beyond the `bound` fails.
 pub fn measure(
     integrand: impl Into<Integrand>,
     grid: &Grid,
     rule: &Rule,
     bound: f64,
     table: &Field,
-    texels: usize,
+    points: usize,
 ) -> Result<Deviation> {
     let integrand = integrand.into();
-    let texels = texels.max(corners(grid).len() + 1);
-    let sample: Vec<usize> = if grid.len() <= texels {
+    let points = points.max(corners(grid).len() + 1);
+    let sample: Vec<usize> = if grid.len() <= points {
         (0..grid.len()).collect()
     } else {
-        let strata = texels - corners(grid).len();
+        let strata = points - corners(grid).len();
         let stratum = |i: usize| i * grid.len() / strata;
         let scattered = |i| stratum(i) + scatter(i) % (stratum(i + 1) - stratum(i));
         corners(grid).into_iter().chain((0..strata).map(scattered)).collect()

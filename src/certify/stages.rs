@@ -6,7 +6,7 @@ use crate::integrate::Integrand;
 use crate::integrate::errors::Errors;
 use crate::integrate::rule::{Method, Rule};
 use crate::integrate::rules::{CLOSED_FORM, D10240, REFERENCE};
-use crate::table::claim::Stage;
+use crate::table::claim::{Stage, StageError};
 use crate::table::grid::Grid;
 use crate::table::precision::Precision;
 
@@ -88,16 +88,12 @@ pub(super) fn summary(
     texels: usize,
     decided: Option<usize>,
 ) -> Stage {
-    // Bounds are widest at the smallest α; where there is none, the stage decides nothing.
-    let rough = grid.alphas.iter().copied().filter(|&alpha| alpha > 0.0);
-    let smallest = errors.row(rough.fold(1.0, f64::min));
-    let row = if smallest.of(&[0.0])[0].is_finite() { smallest } else { errors.row(1.0) };
     let decades = [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
-    Stage {
-        by,
-        error: row.of(&[0.0])[0],
-        error_by_decade: decades.map(|b| row.of(&[0.0, b])[1]),
-        texels,
-        decided,
-    }
+    let of_row = |&alpha: &f64| {
+        let row = errors.row(alpha);
+        let by_decade = decades.map(|b| row.of(&[0.0, b])[1]);
+        StageError { largest: row.of(&[0.0])[0], by_decade }
+    };
+    let bounds = grid.alphas.iter().map(of_row).filter(|bound| bound.largest.is_finite());
+    Stage { by, error: bounds.reduce(StageError::or_wider), texels, decided }
 }

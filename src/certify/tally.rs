@@ -5,7 +5,7 @@ use super::decision::Task;
 use super::stages::Stages;
 use crate::error::{Error, Result};
 use crate::integrate::average::average_error;
-use crate::table::claim::{Certificate, Stage};
+use crate::table::claim::{Certificate, Stage, StageError};
 
 /// The findings of the stages.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,9 +42,8 @@ impl Tally {
         for (i, stage) in other.stages.into_iter().enumerate() {
             match self.stages.get_mut(i) {
                 Some(own) => {
-                    let larger = |(own, other): (&mut f64, f64)| *own = own.max(other);
-                    larger((&mut own.error, stage.error));
-                    own.error_by_decade.iter_mut().zip(stage.error_by_decade).for_each(larger);
+                    own.error =
+                        own.error.into_iter().chain(stage.error).reduce(StageError::or_wider);
                     own.texels += stage.texels;
                     own.decided = own.decided.zip(stage.decided).map(|(a, b)| a + b);
                 }

@@ -23,8 +23,8 @@ use std::fs;
 
 #[derive(Subcommand)]
 pub enum ChartArgs {
-    /// Draw a table: a panel for each channel, dark at 0, yellow at the channel's largest value,
-    /// which is printed
+    /// Draw a table: a panel for each channel, a row of them for each slice, dark at 0, yellow at
+    /// the channel's largest value, which is printed
     #[command(mut_args(of_picture))]
     Table(Box<TableArgs>),
     /// Measure speed against accuracy, the field's estimators beside ours, on this CPU and on every
@@ -66,7 +66,7 @@ pub struct StudyArgs {
 fn of_picture(argument: clap::Arg) -> clap::Arg {
     match argument.get_id().as_str() {
         "output" => argument.help("Picture to write, a .png [default: out/dfg.png]"),
-        name if FLAGS_OF_FILES.contains(&name) => argument.hide(true),
+        name if FLAGS_OF_FILES.iter().any(|flag| flag.0 == name) => argument.hide(true),
         _ => argument,
     }
 }

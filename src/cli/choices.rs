@@ -5,7 +5,7 @@ use crate::choice::Choice;
 use crate::error::Result;
 use crate::format::FORMATS;
 use crate::integrate::rules::RULES;
-use crate::lut::EnergyChannels;
+use crate::lut::{DfgChannels, EnergyChannels};
 use crate::table::precision::Precision;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
@@ -21,21 +21,21 @@ pub fn model() -> impl TypedValueParser<Value = String> {
 
 /// The parser of channels: those of each Fresnel model, and those of energy.
 pub fn channels() -> impl TypedValueParser<Value = String> {
-    let letters = |fresnel: &Fresnel| {
-        let definition = fresnel.definition();
-        PossibleValue::new(definition.channels)
-            .help(format!("of dfg, {fresnel}: {}", definition.albedo))
+    let of_model = |&fresnel: &Fresnel| {
+        DfgChannels::served_by(fresnel).map(move |channels| (channels, fresnel))
     };
-    let of_dfg = [
-        PossibleValue::new("be")
-            .help("of dfg, schlick: B and E = A + B, the multiple-scattering packing"),
-        PossibleValue::new("e").help("of dfg: E alone"),
-    ];
-    let of_energy = |channels: &EnergyChannels| {
+    let pairs: Vec<(DfgChannels, Fresnel)> = Fresnel::ALL.iter().flat_map(of_model).collect();
+    let of_dfg = pairs.iter().map(|&(channels, fresnel)| {
+        let word = channels.word(fresnel);
+        let serves = pairs.iter().filter(|(channels, fresnel)| channels.word(*fresnel) == word);
+        let models: Vec<&str> = serves.map(|(_, fresnel)| fresnel.word()).collect();
+        let about = channels.about(fresnel);
+        PossibleValue::new(word).help(format!("of dfg, {}: {about}", models.join(" or ")))
+    });
+    let of_energy = EnergyChannels::ALL.iter().map(|channels| {
         PossibleValue::new(channels.word()).help(format!("of energy: {}", channels.about()))
-    };
-    let all = Fresnel::ALL.iter().map(letters).chain(of_dfg);
-    PossibleValuesParser::new(distinct(all.chain(EnergyChannels::ALL.iter().map(of_energy))))
+    });
+    PossibleValuesParser::new(distinct(of_dfg.chain(of_energy)))
 }
 
 /// The parser of a rule's name.

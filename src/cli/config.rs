@@ -31,7 +31,7 @@ pub fn read(path: &str) -> Result<Vec<Job>> {
     let bytes = std::fs::read(path).map_err(&io)?;
     let text = String::from_utf8(bytes)
         .map_err(|_| wrong("TOML", "bytes that are not UTF-8".into(), "name a TOML file"))?;
-    let keys = "use the names of 'splitsum bake --help' without the dashes";
+    let keys = "give the flags of 'splitsum bake --help' without the dashes, and values as there";
     let config: Config = toml::from_str(&text).map_err(|error| {
         wrong("[[table]] entries", format!("\n{}", error.to_string().trim_end()), keys)
     })?;
@@ -47,13 +47,10 @@ pub fn read(path: &str) -> Result<Vec<Job>> {
             Some(output) if output != "-" => {
                 job.output = folder.join(output).to_string_lossy().into_owned()
             }
-            _ => {
-                return Err(Error::bad_input(
-                    name,
-                    "an output file",
-                    "none",
-                    "add output = \"FILE\"",
-                ));
+            other => {
+                let got = if other.is_some() { "-" } else { "none" };
+                let cure = "give output = \"FILE\"";
+                return Err(Error::bad_input(name, "an output file", got, cure));
             }
         }
         jobs.push(job);

@@ -24,9 +24,14 @@ impl DeviceArgs {
     /// Opens the backend for work that takes `bytes`, with these options besides the device.
     pub fn open(&self, options: GpuOptions, bytes: u64) -> Result<Backend> {
         let options = GpuOptions { device: self.device.clone(), ..options };
-        if self.backend == BackendChoice::Cpu && options != GpuOptions::default() {
-            let cure = "leave out the flags of a device, or choose --backend vulkan";
-            return Err(usage("--backend cpu", "flags of the CPU", "flags of a device", cure));
+        let GpuOptions { device, validate, tile } = &options;
+        let of_device =
+            [(device.is_some(), "--device"), (*validate, "--validate"), (tile.is_some(), "--tile")];
+        if let (BackendChoice::Cpu, Some((_, flag))) =
+            (self.backend, of_device.iter().find(|(given, _)| *given))
+        {
+            let cure = "leave it out, or choose --backend vulkan";
+            return Err(usage("--backend cpu", "no flag of a device", flag, cure));
         }
         resources::open_backend(self.backend, &options, bytes)
     }

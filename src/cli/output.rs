@@ -9,7 +9,7 @@ use crate::format::png::encode_rgb;
 use crate::image::Picture;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, IsTerminal, Seek, SeekFrom, Write};
-use std::path::Path;
+use std::path::{Path, absolute};
 
 /// Output to standard output, a device or a pipe, which cannot seek, waits in memory up to this
 /// size, then on the disk.
@@ -41,7 +41,7 @@ pub fn check(name: &str) -> Result<()> {
             io::ErrorKind::IsADirectory,
         )));
     }
-    if folder_of(path) == Path::new(DEFAULT_FOLDER) {
+    if is_default_folder(folder_of(path)) {
         let failed = Error::io("create the folder of", name, "choose another place with -o");
         fs::create_dir_all(folder_of(path)).map_err(failed)?;
     }
@@ -112,7 +112,8 @@ pub fn write_with(
 
 /// Whether `name` can be written and is that of a picture.
 pub fn check_picture(name: &str) -> Result<()> {
-    if !name.ends_with(".png") {
+    let extension = Path::new(name).extension().unwrap_or_default();
+    if !extension.eq_ignore_ascii_case("png") {
         return Err(Error::bad_input(
             "output",
             "a name that ends in .png",
@@ -172,6 +173,12 @@ fn copy(spool: &mut (impl io::Read + Seek), name: &str) -> io::Result<()> {
     };
     io::copy(spool, &mut out)?;
     out.flush()
+}
+
+/// Whether a folder is that of the default outputs, however it is written.
+fn is_default_folder(folder: &Path) -> bool {
+    let default = absolute(DEFAULT_FOLDER).ok();
+    default.is_some() && absolute(folder).ok() == default
 }
 
 fn folder_of(path: &Path) -> &Path {

@@ -7,10 +7,11 @@ mod values;
 use self::family::Family;
 use self::values::{Numbers, Size};
 use super::choices;
+use super::output::DEFAULT_FOLDER;
 use crate::brdf::{Fresnel, Masking};
 use crate::choice::choice;
 use crate::error::{Error, Result};
-use crate::format::{FORMATS, Format};
+use crate::format::Format;
 use crate::integrate::rule::Rule;
 use crate::lut::Lut;
 use crate::request::{Accuracy, DEFAULT_SIZE, Request};
@@ -42,14 +43,17 @@ pub struct TableArgs {
     channels: Option<String>,
     /// Reflectance at normal incidence, for the split of energy; several, with commas between, are
     /// slices, layers of an .exr [default: 0.04]
-    #[arg(long, value_name = "F0[,F0...]", conflicts_with_all = ["ior", "z"])]
+    #[arg(
+        long, value_name = "F0[,F0...]", conflicts_with_all = ["ior", "z"],
+        allow_hyphen_values = true
+    )]
     f0: Option<Numbers>,
     /// Index of refraction instead of F0: F0 = ((1-n)/(1+n))^2
-    #[arg(long, value_name = "N", conflicts_with = "z")]
+    #[arg(long, value_name = "N", conflicts_with = "z", allow_hyphen_values = true)]
     ior: Option<f64>,
     /// Columns x rows, each 1 to 16384, and slices, 1 to 64, where there is a z axis; one number
     /// for a square [default: 128]
-    #[arg(long, value_name = "N|WxH|WxHxD")]
+    #[arg(long, value_name = "N|WxH|WxHxD", allow_hyphen_values = true)]
     size: Option<Size>,
     /// The axis along a row, for example nov,sqrt,edges: PARAMETER nov, roughness (perceptual),
     /// alpha or exponent (n = 10^(7p), Blinn-Phong's); then, where they differ from linear,centres:
@@ -81,7 +85,7 @@ pub struct TableArgs {
     /// Largest absolute error of an integral, 1e-13 to 0.1, where its values are stored in f32 or
     /// not certified [default: 1e-6 for f32 and unorm16, 1.5e-5 for f16, 1e-4 for unorm8; more for
     /// models of which a device keeps less]
-    #[arg(long, value_name = "ERROR", conflicts_with = "rule")]
+    #[arg(long, value_name = "ERROR", conflicts_with = "rule", allow_hyphen_values = true)]
     tolerance: Option<f64>,
     /// Store the values of this quadrature rule, not certified; those that begin with h run on
     /// Vulkan too
@@ -90,7 +94,7 @@ pub struct TableArgs {
     /// File format [default: by the extension of the output]
     #[arg(long, value_name = "NAME", value_parser = choices::format())]
     format: Option<String>,
-    /// File to write; - is standard output [default: out/dfg.exr]
+    /// File to write; - is standard output [default: out/dfg.exr, or .png for its storages]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<String>,
 }
@@ -107,15 +111,23 @@ choice!(Switch, "certify", {
     Off = "off", "check a sample";
 });
 
-/// The default output.
-const DEFAULT_OUTPUT: &str = if cfg!(feature = "exr") { "out/dfg.exr" } else { "out/dfg.png" };
-
 /// F0 of most dielectrics: an index of refraction of 1.5.
 const DEFAULT_F0: f64 = 0.04;
 
-/// The flags that [`TableArgs::flag_of_files`] finds.
+/// Whether a flag is given.
 #[cfg(feature = "compare")]
-pub const FLAGS_OF_FILES: [&str; 6] = ["z", "precision", "certify", "tolerance", "rule", "format"];
+type IsGiven = fn(&TableArgs) -> bool;
+
+/// The flags that a picture does not follow, since it has neither storage nor certificate, and
+/// whether each is given.
+#[cfg(feature = "compare")]
+pub const FLAGS_OF_FILES: [(&str, IsGiven); 5] = [
+    ("precision", |table| table.precision.is_some()),
+    ("certify", |table| table.certify.is_some()),
+    ("tolerance", |table| table.tolerance.is_some()),
+    ("rule", |table| table.rule.is_some()),
+    ("format", |table| table.format.is_some()),
+];
 
 /// A table to bake, its format and its file.
 #[derive(Clone, Debug)]
@@ -129,12 +141,13 @@ pub struct Job {
 impl TableArgs {
     /// The checked job.
     pub fn job(&self) -> Result<Job> {
-        let output = self.output.clone().unwrap_or_else(|| DEFAULT_OUTPUT.into());
-        let format = match &self.format {
-            Some(name) => Format::named(name)?,
-            None if output == "-" => &FORMATS[0],
-            None => Format::of_file(&output)?,
+        let format = match (&self.format, self.output.as_deref()) {
+            (Some(name), _) => Format::named(name)?,
+            (None, None | Some("-")) => Format::of_precision(self.precision),
+            (None, Some(output)) => Format::of_file(output)?,
         };
+        let default = || format!("{DEFAULT_FOLDER}/dfg.{}", format.extension());
+        let output = self.output.clone().unwrap_or_else(default);
         let precision = format.precision(self.precision)?;
         let request = self.request(precision, |lut| self.accuracy(lut, precision))?;
         let layout = request.layout();
@@ -154,30 +167,16 @@ impl TableArgs {
         let f0s = self.f0s()?;
         let lut = self.family(f0s[0])?;
         if lut.f0().is_none() && (self.f0.is_some() || self.ior.is_some()) {
-            let got = format!("{} with channels {}", lut.name(), names(&lut));
-            let cure = "leave out f0 and ior: the other tables serve every F0";
-            return Err(Error::bad_input("f0", "the split of energy", got, cure));
+            let what = if self.ior.is_some() { "ior" } else { "f0" };
+            let got = format!("--lut {} {}", lut.name(), lut.flags());
+            let cure = "leave it out: no other table depends on F0";
+            return Err(Error::bad_input(what, "the split of energy beside it", got, cure));
         }
         let request = Request::new(lut, x, y, accuracy(&lut)?, precision)?;
         match self.slices(&f0s, depth)? {
             Some(slices) => request.with_slices(slices),
             None => Ok(request),
         }
-    }
-
-    /// The first of the flags that a picture does not follow: it has no storage, no certificate and
-    /// no slices.
-    #[cfg(feature = "compare")]
-    pub fn flag_of_files(&self) -> Option<&'static str> {
-        let given = [
-            self.z.is_some(),
-            self.precision.is_some(),
-            self.certify.is_some(),
-            self.tolerance.is_some(),
-            self.rule.is_some(),
-            self.format.is_some(),
-        ];
-        FLAGS_OF_FILES.into_iter().zip(given).find_map(|(flag, given)| given.then_some(flag))
     }
 
     /// F0 of each slice; of a table over two axes its own.
@@ -254,9 +253,4 @@ impl TableArgs {
             (None, Some(tolerance), _) => Ok(Accuracy::Within(tolerance)),
         }
     }
-}
-
-/// The names of a table's channels with commas between.
-fn names(lut: &Lut) -> String {
-    lut.channels().iter().map(|channel| channel.name).collect::<Vec<_>>().join(", ")
 }

@@ -106,7 +106,7 @@ impl Dfg {
 impl DfgChannels {
     /// The channels that suffice for a Fresnel model, or leave out what it does not change: a
     /// packing of two numbers has no place for a third integral.
-    fn served_by(fresnel: Fresnel) -> impl Iterator<Item = DfgChannels> {
+    pub(crate) fn served_by(fresnel: Fresnel) -> impl Iterator<Item = DfgChannels> {
         let serves = move |channels: &DfgChannels| match channels {
             DfgChannels::All => true,
             DfgChannels::Be => fresnel.count() == 2,
@@ -115,11 +115,21 @@ impl DfgChannels {
         [DfgChannels::All, DfgChannels::Be, DfgChannels::E].into_iter().filter(serves)
     }
 
-    fn word(self, fresnel: Fresnel) -> &'static str {
+    /// Their word.
+    pub(crate) fn word(self, fresnel: Fresnel) -> &'static str {
         match self {
             DfgChannels::All => fresnel.definition().channels,
             DfgChannels::Be => "be",
             DfgChannels::E => "e",
+        }
+    }
+    /// They in a line, for `--help`.
+    #[cfg(feature = "cli")]
+    pub(crate) fn about(self, fresnel: Fresnel) -> &'static str {
+        match self {
+            DfgChannels::All => fresnel.definition().albedo,
+            DfgChannels::Be => "B and E = A + B, the multiple-scattering packing",
+            DfgChannels::E => "E = A + B alone",
         }
     }
 }

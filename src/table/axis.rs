@@ -7,7 +7,7 @@
 
 use crate::choice::{Choice, choice};
 use crate::error::{Error, Result};
-use crate::units::{Alpha, Cosine, F0, PerceptualRoughness};
+use crate::units::{Alpha, Cosine, F0, PerceptualRoughness, short};
 use std::fmt;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
@@ -261,7 +261,7 @@ const OFFSETS: RangeInclusive<f64> = -2.0..=2.0;
 pub const AXIS_WORDS: &str = "PARAMETER[,MAPPING][,NODES][,flip][,min=X] with PARAMETER nov, \
                               roughness, alpha, exponent or (along z) f0; MAPPING linear, sqrt (t \
                               = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES centres, edges \
-                              or offset=X with X in [-2, 2]";
+                              or offset=X with X in [-2, 2]; min=X with X in [0, 1]";
 
 impl FromStr for AxisSpec {
     type Err = Error;
@@ -310,14 +310,14 @@ impl fmt::Display for AxisSpec {
         match self.nodes {
             Nodes::Edges => write!(f, ",edges")?,
             Nodes::Offset(0.5) => write!(f, ",centres")?,
-            Nodes::Offset(offset) => write!(f, ",offset={offset}")?,
+            Nodes::Offset(offset) => write!(f, ",offset={}", short(offset))?,
         }
         if self.flip {
             write!(f, ",flip")?;
         }
-        if self.min > 0.0 {
-            // Short where it has a hundred zeros.
-            write!(f, ",min={:?}", self.min)?;
+        // What is no min is shown too, since an error quotes it.
+        if self.min != 0.0 {
+            write!(f, ",min={}", short(self.min))?;
         }
         Ok(())
     }

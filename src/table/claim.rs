@@ -1,6 +1,8 @@
 //! The claim of a table: how far its values are from the truth, and on what grounds. A table cannot
 //! be without one.
 
+use std::array::from_fn;
+
 /// How far the values of a table are from the truth.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -57,17 +59,35 @@ pub struct Certificate {
 pub struct Stage {
     /// Backend and rule.
     pub by: String,
-    /// The largest error of an integral, wherever the rule has a bound.
-    pub error: f64,
-    /// The largest error of an integral that vanishes at normal incidence (B), where it is 1, 0.1,
-    /// …, 1e-6.
-    pub error_by_decade: [f64; 7],
+    /// The bounds of its errors; none where it has no bound at any roughness of the table.
+    pub error: Option<StageError>,
     /// The texels for which the stage was asked.
     pub texels: usize,
     /// The texels that it decided; none where values are stored within a tolerance and there is
     /// nothing to decide.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub decided: Option<usize>,
+}
+
+/// The bounds of a stage's errors, at whichever roughness of the table they are widest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct StageError {
+    /// The largest of any integral.
+    pub largest: f64,
+    /// The largest of an integral that vanishes at normal incidence (B), where it is 1, 0.1, …,
+    /// 1e-6.
+    pub by_decade: [f64; 7],
+}
+
+impl StageError {
+    /// The wider of both bounds.
+    pub(crate) fn or_wider(self, other: StageError) -> StageError {
+        StageError {
+            largest: self.largest.max(other.largest),
+            by_decade: from_fn(|i| self.by_decade[i].max(other.by_decade[i])),
+        }
+    }
 }
 
 impl Claim {

@@ -3,7 +3,7 @@
 
 use super::axis::{Axis, AxisSpec, Parameter};
 use crate::error::{Error, Result};
-use crate::units::F0;
+use crate::units::{F0, short};
 
 /// The largest number of slices.
 pub const LARGEST_COUNT: usize = 64;
@@ -79,12 +79,12 @@ impl Slices {
 
     /// The name of a slice, such as `F0 = 0.04`.
     pub fn label(&self, slice: usize) -> String {
-        format!("{} = {}", self.parameter.to_string().to_uppercase(), self.values[slice])
+        format!("{} = {}", self.parameter.to_string().to_uppercase(), short(self.values[slice]))
     }
 }
 
 /// Numbers with commas between, at most nine of them.
 fn listed(values: &[f64]) -> String {
-    let shown = values.iter().take(9).map(f64::to_string).collect::<Vec<_>>().join(",");
+    let shown = values.iter().take(9).map(|&value| short(value)).collect::<Vec<_>>().join(",");
     if values.len() > 9 { format!("{shown},… ({} in all)", values.len()) } else { shown }
 }

@@ -4,9 +4,9 @@ use crate::backend::BackendChoice;
 use crate::backend::device::GpuOptions;
 use crate::bake::Plan;
 use crate::bake::plan::working_bytes;
-use crate::cli::table_args::TableArgs;
-use crate::cli::{output, resources, usage};
-use crate::error::{Error, Result};
+use crate::cli::table_args::{FLAGS_OF_FILES, TableArgs};
+use crate::cli::{output, print, resources, usage};
+use crate::error::Result;
 use crate::image::{panels, sequential};
 use crate::lut::Lut;
 use crate::request::Accuracy;
@@ -15,7 +15,7 @@ use crate::table::precision::Precision;
 const DEFAULT_OUTPUT: &str = "out/dfg.png";
 
 pub fn run(table: &TableArgs) -> Result<()> {
-    if let Some(flag) = table.flag_of_files() {
+    if let Some((flag, _)) = FLAGS_OF_FILES.iter().find(|(_, is_given)| is_given(table)) {
         let got = format!("--{flag}");
         return Err(usage("chart table", "flags of a picture", &got, "leave it out"));
     }
@@ -24,28 +24,25 @@ pub fn run(table: &TableArgs) -> Result<()> {
     // As they are integrated: a storage may not hold what the picture's scale shows.
     let uncertified = |lut: &Lut| Ok(Accuracy::uncertified(lut, Precision::F64));
     let request = table.request(Precision::F64, uncertified)?;
-    if request.layout().slice_count() > 1 {
-        let got = "several";
-        return Err(Error::bad_input("f0", "one F0 for a picture", got, "draw one at a time"));
-    }
     // Of each value the integral, its channel's plane, the same scaled, and three bytes of the
     // picture.
-    let values = request.layout().values_of_slice();
+    let values = request.layout().slice_count() * request.layout().values_of_slice();
     let bytes = (working_bytes(&request) + values * (3 * 8 + 3)) as u64;
     resources::start(bytes, None, resources::ALLOW)?;
     let backend = resources::open_backend(BackendChoice::Auto, &GpuOptions::default(), bytes)?;
     let table = Plan::new(&request, &backend)?.bake(&|_| ())?.table;
     let (n, size) = (table.channels().len(), (table.x().size(), table.y().size()));
-    let channels: Vec<Vec<f64>> = (0..n).map(|channel| table.plane(0, channel)).collect();
-    let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-    let scaled = |values: &Vec<f64>| {
-        let end = largest(values).max(f64::MIN_POSITIVE);
-        values.iter().map(|value| value / end).collect()
-    };
-    let picture = panels(&channels.iter().map(scaled).collect::<Vec<_>>(), size, n, sequential);
-    output::write_picture(output, &picture)?;
-    let line = |(channel, values): (usize, &Vec<f64>)| {
-        format!("{}: 0 to {:.4}", table.channels()[channel].name, largest(values))
-    };
-    crate::cli::print(&channels.iter().enumerate().map(line).collect::<Vec<_>>().join(", "))
+    let slices = table.layout().slice_count();
+    let mut planes: Vec<Vec<f64>> = (0..slices * n).map(|i| table.plane(i / n, i % n)).collect();
+    let mut lines = Vec::new();
+    for (channel, about) in table.channels().iter().enumerate() {
+        let of_channel = || planes.iter().skip(channel).step_by(n).flatten();
+        let largest = of_channel().copied().fold(0.0, f64::max);
+        let scale = 1.0 / largest.max(f64::MIN_POSITIVE);
+        let values = planes.iter_mut().skip(channel).step_by(n).flatten();
+        values.for_each(|value| *value *= scale);
+        lines.push(format!("{}: 0 to {largest:.4}", about.name));
+    }
+    output::write_picture(output, &panels(&planes, size, n, sequential))?;
+    print(&lines.join(", "))
 }

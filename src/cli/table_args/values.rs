@@ -1,5 +1,5 @@
-//! Sizes and lists of numbers as users write them: as text on the command line, as numbers, lists or
-//! text in a configuration.
+//! Sizes and lists of numbers as users write them: text on the command line; numbers, lists or text
+//! in a configuration.
 
 use crate::error::{Error, Result};
 use serde::Deserialize;
@@ -7,7 +7,7 @@ use std::fmt;
 
 /// A table's size as users write it.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected a whole number, or text as in \"64x32\"")]
 pub enum Size {
     /// One number for a square.
     Square(i64),
@@ -17,7 +17,7 @@ pub enum Size {
 
 /// One number or several as users write them.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected a number or several, as in [0.02, 0.04]")]
 pub enum Numbers {
     /// One.
     One(f64),
