@@ -43,7 +43,12 @@ fn a_value_that_the_storage_cannot_hold_is_named_with_the_storage_that_holds_it(
                 let text = stderr(&output);
                 assert_eq!(output.status.code(), Some(4), "{bake}: {text}");
                 let got = format!("got {largest}");
-                for words in [&got, "as the largest, channel", "n.v = ", "f16 or f32, in an .exr"] {
+                for words in [
+                    &got,
+                    "as the largest, channel",
+                    "n.v = ",
+                    "f16 or f32, in a file format of floats",
+                ] {
                     assert!(text.contains(words), "{bake}: no '{words}' in: {text}");
                 }
             }

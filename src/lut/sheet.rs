@@ -75,7 +75,7 @@ impl<'a> Sheet<'a> {
             .collect();
         let cure = match wider.is_empty() {
             true => "raise the min of an axis, where the values grow beyond all bounds".into(),
-            false => format!("store them as {}, in a format of floats", wider.join(" or ")),
+            false => format!("store them in {}, in a file format of floats", wider.join(" or ")),
         };
         let which = if value < low { "smallest" } else { "largest" };
         let expected =
