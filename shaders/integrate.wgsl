@@ -1,4 +1,4 @@
-// A texel's integrals, whatever its alpha: the twin of src/backend/cpu.rs.
+// A texel's integrals, whatever its alpha: the twin of src/integrate.rs and src/backend/cpu.rs.
 // It needs quadrature: the integrals of a lobe at alpha above 0.
 
 // The limit alpha -> 0 at fixed n.v: a perfect mirror, times the limit of the albedo.

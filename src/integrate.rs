@@ -20,8 +20,9 @@ pub mod rules;
 
 pub use field::{Field, ScaleBias};
 
+use crate::brdf::fresnel::Basis;
 use crate::brdf::{Diffuse, Fresnel, Microfacet};
-use crate::numeric::lanes::Real;
+use crate::numeric::lanes::{Number, Real};
 
 /// A lobe to be integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,6 +65,12 @@ impl Integrand {
             Integrand::Diffuse(_) => true,
         }
     }
+}
+
+/// The integrals in the limit α → 0 at fixed n·v: those of a perfect mirror, times the limit of the
+/// albedo.
+pub fn mirror<const N: usize, B: Basis<N>, R: Number>(lobe: Microfacet, basis: B, mu: R) -> [R; N] {
+    basis.of_mirror(mu).map(|weight| lobe.smooth_limit(mu) * weight)
 }
 
 /// The scale of errors at a point: the albedo there if it exceeds 1, else 1.

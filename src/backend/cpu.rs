@@ -9,7 +9,7 @@ use crate::integrate::half_vectors::{HalfVectorNodes, half_vectors};
 use crate::integrate::interpolant::{Interpolant, InterpolantRule};
 use crate::integrate::light_directions::{LightDirectionNodes, light_directions};
 use crate::integrate::rule::{Method, Rule};
-use crate::integrate::{Field, Integrals, Integrand};
+use crate::integrate::{Field, Integrals, Integrand, mirror};
 use crate::numeric::lanes::{self, F64x8, Real, Vector, vectorised};
 use crate::table::grid::Grid;
 use crate::units::roughness_of;
@@ -269,11 +269,6 @@ fn scatter<const N: usize>(lanes: &Integrals<N, F64x8>, integrals: &mut [f64]) {
             *integral = lanes.0[k].0[i];
         }
     }
-}
-
-/// The limit α → 0 at fixed n·v.
-fn mirror<const N: usize, B: Basis<N>>(lobe: Microfacet, basis: B, mu: f64) -> [f64; N] {
-    basis.of_mirror(mu).map(|weight| lobe.smooth_limit(mu) * weight)
 }
 
 impl<const N: usize, B: Basis<N>> Quadrature<N, B> {

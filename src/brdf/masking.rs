@@ -54,22 +54,23 @@ impl Masking {
     /// [`Masking::of_mirror`] and n·l V in WGSL, of `mu`, `x` and `alpha`; `projected_area` is the
     /// distribution's.
     pub fn wgsl(self) -> (&'static str, &'static str) {
-        let visibility = match self {
-            Masking::HeightCorrelated => {
-                "height_correlated(x, mu, projected_area(x, alpha), projected_area(mu, alpha))"
-            }
+        match self {
+            Masking::HeightCorrelated => (
+                "1.0",
+                "height_correlated(x, mu, projected_area(x, alpha), projected_area(mu, alpha))",
+            ),
             Masking::Separable => {
-                "separable(x, mu, projected_area(x, alpha), projected_area(mu, alpha))"
+                ("1.0", "separable(x, mu, projected_area(x, alpha), projected_area(mu, alpha))")
             }
-            Masking::SchlickSmith => "schlick_smith(x, mu, alpha)",
-            Masking::HeightCorrelatedApprox => {
+            Masking::SchlickSmith => ("1.0", "schlick_smith(x, mu, alpha)"),
+            Masking::HeightCorrelatedApprox => (
+                "1.0",
                 "height_correlated(x, mu, approx_projected_area(x, alpha), \
-                 approx_projected_area(mu, alpha))"
-            }
-            Masking::Implicit => "implicit(x)",
-            Masking::Neubelt => "neubelt(x, mu)",
-        };
-        (if self == Masking::Implicit { "mu * mu" } else { "1.0" }, visibility)
+                 approx_projected_area(mu, alpha))",
+            ),
+            Masking::Implicit => ("mu * mu", "implicit(x)"),
+            Masking::Neubelt => ("1.0", "neubelt(x, mu)"),
+        }
     }
 }
 

@@ -1,10 +1,10 @@
 //! A stage at work on texels: the texels that it decides, and the largest error of the others.
 
 use super::decision::{Averages, Task};
-use crate::brdf::fresnel::{Basis, MOST_WEIGHTS, with_basis};
+use crate::brdf::fresnel::{MOST_WEIGHTS, with_basis};
 use crate::brdf::{Fresnel, Microfacet};
-use crate::integrate::Integrand;
 use crate::integrate::errors::{Errors, RowErrors};
+use crate::integrate::{Integrand, mirror};
 use crate::numeric::ball::Ball;
 
 /// The multiple of the last rule's error before the reference that earlier stages add to their own:
@@ -132,31 +132,22 @@ impl Decider<'_> {
 /// The integrals of a texel with the bounds of their errors.
 #[inline(always)]
 fn balls(row: &Row, mu: f64, integrals: &[f64]) -> [Ball; MOST_WEIGHTS] {
+    let mut balls = [Ball::default(); MOST_WEIGHTS];
     if let Some((lobe, fresnel)) = row.mirror {
-        return with_basis!(fresnel, basis => mirror(lobe, basis, mu));
+        // Exact but for the arithmetic.
+        with_basis!(fresnel, basis => {
+            let integrals = mirror(lobe, basis, Ball::exact(mu));
+            balls.iter_mut().zip(integrals).for_each(|(ball, integral)| *ball = integral);
+        });
+        return balls;
     }
     let errors = row.errors.of(integrals);
     let margins = match &row.margin {
         Some(margin) => margin.of(integrals),
         None => [0.0; MOST_WEIGHTS],
     };
-    let mut balls = [Ball::default(); MOST_WEIGHTS];
     for (k, (ball, &value)) in balls.iter_mut().zip(integrals).enumerate() {
         *ball = Ball { value, error: errors[k] + MARGIN * margins[k] };
-    }
-    balls
-}
-
-/// The integrals of a mirror, exact but for the arithmetic.
-fn mirror<const N: usize, B: Basis<N>>(
-    lobe: Microfacet,
-    basis: B,
-    mu: f64,
-) -> [Ball; MOST_WEIGHTS] {
-    let mu = Ball::exact(mu);
-    let mut balls = [Ball::default(); MOST_WEIGHTS];
-    for (ball, weight) in balls.iter_mut().zip(basis.of_mirror(mu)) {
-        *ball = lobe.smooth_limit(mu) * weight;
     }
     balls
 }

@@ -209,46 +209,38 @@ impl Run<'_> {
         self.tally.stages.push(summary(by, errors, self.task.grid, texels, decided));
     }
 
-    /// Compares the integrals of a stage with those of the one before it, and with the device's.
+    /// Compares the integrals of a stage with the device's, and with those of the one before it.
     fn compare(&self, seen: &Seen, rule: &Rule) -> Result<()> {
-        if self.device.is_none() && self.last.is_none() {
+        let integrand = self.integrand();
+        let ours = rule.errors(integrand);
+        let device = self.device.map(|device| (device, device.rule.device_errors(integrand)));
+        let last = self.last.as_ref().map(|(rule, seen)| (rule, seen, rule.errors(integrand)));
+        if device.is_none() && last.is_none() {
             return Ok(());
         }
-        (0..seen.len()).into_par_iter().try_for_each(|place| {
-            let texel = seen.texel(place);
-            let integrals = seen.integrals.at(place);
-            self.compare_with_device(texel, integrals, rule)?;
-            self.compare_with_last(texel, integrals, rule)
-        })
-    }
-
-    fn compare_with_device(&self, texel: usize, integrals: &[f64], by: &Rule) -> Result<()> {
-        let Some(DeviceTable { integrals: theirs, rule, name }) = self.device else {
-            return Ok(());
+        let compare = |place: usize| {
+            let (texel, integrals) = (seen.texel(place), seen.integrals.at(place));
+            let (mu, alpha) = self.task.grid.point(texel);
+            let our_errors = ours.at(alpha, integrals);
+            let failed = |who: &str, apart: String, cure: &str| {
+                Error::CheckFailed(format!("at n.v = {mu}, alpha = {alpha} {who} {apart}; {cure}"))
+            };
+            if let Some((device, errors)) = &device {
+                let cure = "the table is thrown away; use another device, or --backend cpu";
+                let theirs = device.integrals.at(texel);
+                check_apart(theirs, integrals, &errors.at(alpha, integrals), &our_errors)
+                    .map_err(|apart| failed(device.name, apart, cure))?;
+            }
+            if let Some((last, seen, errors)) = &last
+                && let Some(theirs) = seen.of(texel)
+            {
+                let rules = format!("rule {} beside {}", last.name, rule.name);
+                check_apart(theirs, integrals, &errors.at(alpha, theirs), &our_errors)
+                    .map_err(|apart| failed(&rules, apart, "please report this"))?;
+            }
+            Ok(())
         };
-        let (integrand, (mu, alpha)) = (self.integrand(), self.task.grid.point(texel));
-        let their_errors = rule.device_errors(integrand).at(alpha, integrals);
-        let our_errors = by.errors(integrand).at(alpha, integrals);
-        check_apart(theirs.at(texel), integrals, &their_errors, &our_errors).map_err(|apart| {
-            Error::CheckFailed(format!(
-                "at n.v = {mu}, alpha = {alpha} {name} {apart}; the table is thrown away; use \
-                 another device, or --backend cpu"
-            ))
-        })
-    }
-
-    fn compare_with_last(&self, texel: usize, integrals: &[f64], by: &Rule) -> Result<()> {
-        let Some((rule, seen)) = &self.last else { return Ok(()) };
-        let Some(theirs) = seen.of(texel) else { return Ok(()) };
-        let (integrand, (mu, alpha)) = (self.integrand(), self.task.grid.point(texel));
-        let their_errors = rule.errors(integrand).at(alpha, theirs);
-        let our_errors = by.errors(integrand).at(alpha, integrals);
-        check_apart(theirs, integrals, &their_errors, &our_errors).map_err(|apart| {
-            let rules = format!("rule {} beside {}", rule.name, by.name);
-            Error::CheckFailed(format!(
-                "at n.v = {mu}, alpha = {alpha} {rules} {apart}; please report this"
-            ))
-        })
+        (0..seen.len()).into_par_iter().try_for_each(compare)
     }
 
     /// The rows of the texels that a stage has seen.

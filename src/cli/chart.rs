@@ -8,10 +8,8 @@ mod table;
 use super::progress::Progress;
 use super::table_args::{FLAGS_OF_FILES, TableArgs};
 use super::{output, place, resources, usage};
-use crate::backend::Gpu;
-use crate::backend::device::DeviceInfo;
-use crate::backend::device::GpuOptions;
-use crate::backend::list_devices;
+use crate::backend::device::{DeviceInfo, GpuOptions};
+use crate::backend::{Gpu, list_devices};
 use crate::compare::draw::Drawing;
 use crate::compare::study::{Device, Machine};
 use crate::error::{Error, Result};
@@ -44,12 +42,8 @@ pub struct StudyArgs {
     /// Fewer points and smaller tables: seconds instead of minutes
     #[arg(long)]
     quick: bool,
-    /// The one Vulkan device to measure, by UUID or a part of its name [default: all of them]
-    #[arg(long, value_name = "NAME|UUID", conflicts_with = "cpu")]
-    device: Option<String>,
-    /// Measure the CPU alone
-    #[arg(long)]
-    cpu: bool,
+    #[command(flatten)]
+    measured: MeasuredArgs,
     /// The folder for the charts (SVG and PNG), a page about them (Markdown) and the measurements
     /// (JSON; of speed CSV too)
     #[arg(short, long, value_name = "FOLDER", default_value = output::DEFAULT_FOLDER)]
@@ -57,6 +51,17 @@ pub struct StudyArgs {
     /// Measure nothing, and draw what this JSON file of an earlier run holds
     #[arg(long, value_name = "FILE", conflicts_with_all = ["quick", "device", "cpu"])]
     from: Option<String>,
+}
+
+/// The flags of what measures this machine.
+#[derive(clap::Args)]
+pub struct MeasuredArgs {
+    /// The one Vulkan device to measure, by UUID or a part of its name [default: all of them]
+    #[arg(long, value_name = "NAME|UUID", conflicts_with = "cpu")]
+    device: Option<String>,
+    /// Measure the CPU alone
+    #[arg(long)]
+    cpu: bool,
     /// Show no progress
     #[arg(short, long)]
     quiet: bool,
@@ -132,9 +137,8 @@ impl StudyArgs {
         if let Some(file) = &self.from {
             return read_study(file);
         }
-        resources::start(STUDY_BYTES, None, resources::ALLOW)?;
-        let devices = devices(self.device.as_deref(), self.cpu)?;
-        let measured = measure(&devices, &Progress::of_work("measuring", self.quiet))?;
+        let (devices, progress) = self.measured.start("measuring")?;
+        let measured = measure(&devices, &progress)?;
         let saved = Saved { tool: TOOL.into(), machine: devices.machine(), measured };
         let json =
             serde_json::to_string(&saved).map_err(|error| Error::Internal(error.to_string()))?;
@@ -143,21 +147,29 @@ impl StudyArgs {
     }
 }
 
-/// The devices to measure: the one that is named; none where there is no driver, or the CPU alone
-/// is wanted.
-fn devices(device: Option<&str>, cpu: bool) -> Result<Devices> {
-    let named = |device: &str| GpuOptions { device: Some(device.into()), ..GpuOptions::default() };
-    let infos = match device {
-        Some(name) => vec![Gpu::open(&named(name))?.info().clone()],
-        None if cpu => Vec::new(),
-        None => list_devices()
-            .unwrap_or_default()
-            .into_iter()
-            .filter(|info| info.unusable.is_none())
-            .collect(),
-    };
-    let options = infos.iter().map(|info| named(&info.uuid)).collect();
-    Ok(Devices { infos, options })
+impl MeasuredArgs {
+    /// Starts threads for work of this name; its devices, and its bar.
+    fn start(&self, work: &str) -> Result<(Devices, Progress)> {
+        resources::start(STUDY_BYTES, None, resources::ALLOW)?;
+        Ok((self.devices()?, Progress::of_work(work, self.quiet)))
+    }
+
+    /// The one that is named, or all; none where there is no driver, or the CPU alone is wanted.
+    fn devices(&self) -> Result<Devices> {
+        let named =
+            |device: &str| GpuOptions { device: Some(device.into()), ..GpuOptions::default() };
+        let infos = match &self.device {
+            Some(name) => vec![Gpu::open(&named(name))?.info().clone()],
+            None if self.cpu => Vec::new(),
+            None => list_devices()
+                .unwrap_or_default()
+                .into_iter()
+                .filter(|info| info.unusable.is_none())
+                .collect(),
+        };
+        let options = infos.iter().map(|info| named(&info.uuid)).collect();
+        Ok(Devices { infos, options })
+    }
 }
 
 impl Devices {

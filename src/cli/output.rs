@@ -3,7 +3,7 @@
 use super::place::resolve;
 use super::temporary::Temporary;
 use super::watched::fill_file;
-use crate::error::{Complaint, Error, Result};
+use crate::error::{Error, Result};
 use crate::format::WriteSeek;
 use crate::format::png::encode_rgb;
 use crate::image::Picture;
@@ -26,12 +26,8 @@ pub fn check(name: &str) -> Result<()> {
     if name == "-" {
         if io::stdout().is_terminal() {
             let cure = "redirect it, or name a file with -o";
-            return Err(Error::Usage(Complaint::new(
-                "output",
-                "a file or a pipe for binary data",
-                "a terminal",
-                cure,
-            )));
+            let expected = "a file or a pipe for binary data";
+            return Err(super::usage("output", expected, "a terminal", cure));
         }
         return super::standard_output::check();
     }

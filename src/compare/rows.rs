@@ -5,11 +5,11 @@ use super::analytic_fit::AnalyticFit;
 use super::point_set::Point;
 use super::sampling::{HalfVector, Sampler, View, estimate, sampled_half_vectors};
 use crate::brdf::Microfacet;
-use crate::brdf::fresnel::{Basis, Schlick};
+use crate::brdf::fresnel::Schlick;
 use crate::choice::Choice;
-use crate::integrate::ScaleBias;
 use crate::integrate::half_vectors::{HalfVectorNodes, half_vectors};
 use crate::integrate::light_directions::{LightDirectionNodes, light_directions};
+use crate::integrate::{ScaleBias, mirror};
 use crate::numeric::lanes::{self, Real, Vector, vectorised};
 use crate::table::grid::Grid;
 use rayon::prelude::*;
@@ -112,8 +112,10 @@ pub fn rows<V: Vector, M: Method>(lobe: Microfacet, grid: &Grid, method: &M) -> 
     let mut integrals = vec![ScaleBias::default(); grid.len()];
     integrals.par_chunks_mut(grid.mus.len()).zip(&grid.alphas).for_each(|(texels, &alpha)| {
         if alpha == 0.0 {
-            let mirror = |(texel, &mu): (&mut ScaleBias, &f64)| *texel = mirror(lobe, mu);
-            return texels.iter_mut().zip(&grid.mus).for_each(mirror);
+            for (texel, &mu) in texels.iter_mut().zip(&grid.mus) {
+                *texel = mirror(lobe, Schlick, mu).into();
+            }
+            return;
         }
         let shared = &method.share(lobe, alpha);
         for (mus, texels) in grid.mus.chunks(V::LANES).zip(texels.chunks_mut(V::LANES)) {
@@ -127,11 +129,6 @@ pub fn rows<V: Vector, M: Method>(lobe: Microfacet, grid: &Grid, method: &M) -> 
         }
     });
     integrals
-}
-
-/// The limit α → 0 at fixed n·v.
-fn mirror(lobe: Microfacet, mu: f64) -> ScaleBias {
-    Schlick.of_mirror(mu).map(|weight| lobe.smooth_limit(mu) * weight).into()
 }
 
 /// A group of as many texels as there are lanes.

@@ -1,10 +1,9 @@
 //! `splitsum chart bounds`
 
-use super::{Devices, STUDY_BYTES, devices};
+use super::{Devices, MeasuredArgs};
 use crate::brdf::Fresnel;
 use crate::choice::Choice;
-use crate::cli::progress::Progress;
-use crate::cli::{output, print, resources, standard_output};
+use crate::cli::{output, print, standard_output};
 use crate::compare::study::Machine;
 use crate::compare::study::bounds::{Finding, Plan, Search, check, everything, search};
 use crate::error::{Error, Result};
@@ -17,18 +16,11 @@ pub struct BoundsArgs {
     /// Seeds the starts of the search
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// The one Vulkan device to search, by UUID or a part of its name [default: all of them]
-    #[arg(long, value_name = "NAME|UUID", conflicts_with = "cpu")]
-    device: Option<String>,
-    /// Search on the CPU alone
-    #[arg(long)]
-    cpu: bool,
+    #[command(flatten)]
+    measured: MeasuredArgs,
     /// A page for what is found (Markdown) [default: none, it is printed]
     #[arg(short, long, value_name = "FILE")]
     output: Option<String>,
-    /// Show no progress
-    #[arg(short, long)]
-    quiet: bool,
 }
 
 pub fn run(arguments: &BoundsArgs) -> Result<()> {
@@ -39,9 +31,7 @@ pub fn run(arguments: &BoundsArgs) -> Result<()> {
         return Err(Error::bad_input("seconds", "0 to 3e7", format!("{seconds:?}"), cure));
     }
     arguments.output.as_ref().map_or_else(standard_output::check, |file| output::check(file))?;
-    resources::start(STUDY_BYTES, None, resources::ALLOW)?;
-    let devices = devices(arguments.device.as_deref(), arguments.cpu)?;
-    let progress = Progress::of_work("searching", arguments.quiet);
+    let (devices, progress) = arguments.measured.start("searching")?;
     let found =
         search(Plan::of_seconds(seconds, seed), &everything(), &devices.open()?, &|share| {
             progress.reach(share)

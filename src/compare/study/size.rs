@@ -4,8 +4,7 @@
 use super::{Share, speed, timed};
 use crate::backend::device::GpuOptions;
 use crate::backend::{Gpu, bake, cpu};
-use crate::brdf::Fresnel;
-use crate::brdf::Microfacet;
+use crate::brdf::{Fresnel, Microfacet};
 use crate::compare::technique::{Arithmetic, Setting};
 use crate::error::Result;
 use crate::integrate::rule::{Method, Rule};

@@ -3,15 +3,13 @@
 
 use super::lookup;
 use super::{Errors, Lobe, Share, median, stored, timed};
-use crate::backend::Gpu;
-use crate::backend::cpu;
+use crate::backend::{Gpu, cpu};
 use crate::brdf::Microfacet;
 use crate::compare::point_set::PointSet;
 use crate::compare::technique::{Arithmetic, BASELINE, Setting, Technique};
 use crate::error::Result;
 use crate::integrate::ScaleBias;
-use crate::integrate::rules::H6144;
-use crate::integrate::rules::REFERENCE;
+use crate::integrate::rules::{H6144, REFERENCE};
 use crate::table::grid::Grid;
 use crate::table::precision::Precision;
 use serde::{Deserialize, Serialize};
