@@ -6,34 +6,38 @@ mod integration;
 pub mod plan;
 
 pub use plan::Plan;
+use plan::{PartPlan, names_of};
 
 use crate::backend::cpu::Baker;
-use crate::backend::{Backend, Progress};
+use crate::backend::{Backend, Gpu, Progress};
 use crate::certify::decision::Task;
-use crate::certify::deviation::MEASURED;
+use crate::certify::deviation::{Deviation, MEASURED, measure};
 use crate::certify::stages::Stages;
 use crate::certify::tally::{Tally, unbounded};
 use crate::certify::ziv::{DeviceTable, certify_band};
 use crate::error::{Error, Result};
 use crate::integrate::Field;
-use crate::lut::Lut;
+use crate::integrate::hammersley::Hammersley;
+use crate::integrate::rule::Rule;
+use crate::integrate::rules::REFERENCE;
 use crate::lut::sheet::Sheet;
+use crate::lut::{Packing, Part};
 use crate::numeric::ball::Ball;
 use crate::report::{Checks, Computed, Report, Seconds};
 use crate::request::{Accuracy, Request};
-use crate::table::Table;
 use crate::table::claim::{Claim, Stage};
 use crate::table::grid::Grid;
 use crate::table::packed::Packed;
-use integration::{Checked, Integration, on_device, sum};
+use crate::table::{self, Table};
+use integration::{Checked, Integration, by_estimator, on_device, sum};
 use std::time::Instant;
 
-/// A baked table, and a report for each of its slices.
+/// A baked table, and a report for each part of each of its slices.
 #[derive(Clone, Debug)]
 pub struct Baked {
     /// The table.
     pub table: Table,
-    /// The reports, in the order of the slices.
+    /// The reports, in the order of the slices, and of their parts in each.
     pub reports: Vec<Report>,
 }
 
@@ -56,30 +60,36 @@ impl Plan<'_> {
     pub fn bake(&self, progress: Progress) -> Result<Baked> {
         let request = self.request;
         let layout = request.layout();
-        let luts = request.luts()?;
-        let mut values = Packed::zeros(request.precision(), luts.len() * layout.values_of_slice())?;
+        let packings = request.packings()?;
+        let count = packings.len() * layout.values_of_slice();
+        let mut values = Packed::zeros(request.precision(), count)?;
         let size = layout.values_of_slice() * request.precision().bytes();
-        let (mut claims, mut reports) = (Vec::new(), Vec::new());
-        for (index, (lut, bytes)) in
-            luts.iter().zip(values.bytes_mut().chunks_exact_mut(size)).enumerate()
-        {
-            let slice = Slice { plan: self, lut, progress };
-            let Outcome { claim, stages, checks, computed, seconds } = slice.bake(bytes)?;
-            reports.push(Report {
-                command: request.to_string(),
-                slice: layout.slices.as_ref().map(|slices| slices.label(index)),
-                size: [layout.x.size(), layout.y.size()],
-                clamped: [layout.x.clamped(), layout.y.clamped()],
-                computed,
-                claim: claim.clone(),
-                stages,
-                checks,
-                seconds,
-            });
-            claims.push(claim);
+        let (mut parts, mut reports) = (Vec::new(), Vec::new());
+        let slices = packings.iter().zip(values.bytes_mut().chunks_exact_mut(size));
+        for (index, (packing, bytes)) in slices.enumerate() {
+            let slice = Slice { plan: self, packing, progress };
+            let outcomes = slice.bake(bytes)?;
+            let several = outcomes.len() > 1;
+            let mut of_slice = Vec::new();
+            for (part, Outcome { claim, stages, checks, computed, seconds }) in outcomes {
+                reports.push(Report {
+                    command: request.to_string(),
+                    slice: layout.slices.as_ref().map(|slices| slices.label(index)),
+                    channels: several.then(|| names_of(&part, &layout.channels)),
+                    size: [layout.x.size(), layout.y.size()],
+                    clamped: [layout.x.clamped(), layout.y.clamped()],
+                    computed,
+                    claim: claim.clone(),
+                    stages,
+                    checks,
+                    seconds,
+                });
+                let (channels, provenance) = (part.places(), part.provenance());
+                of_slice.push(table::Part { channels, provenance, claim });
+            }
+            parts.push(of_slice);
         }
-        let provenance = luts.iter().map(Lut::provenance).collect();
-        let table = Table::new(layout.clone(), values, provenance, claims, request.to_string())?;
+        let table = Table::new(layout.clone(), values, parts, request.to_string())?;
         Ok(Baked { table, reports })
     }
 }
@@ -87,11 +97,11 @@ impl Plan<'_> {
 /// A slice of a table.
 struct Slice<'a> {
     plan: &'a Plan<'a>,
-    lut: &'a Lut,
+    packing: &'a Packing,
     progress: Progress<'a>,
 }
 
-/// The outcome of a slice besides its values.
+/// The outcome of a part of a slice besides its values.
 struct Outcome {
     claim: Claim,
     stages: Vec<Stage>,
@@ -101,12 +111,34 @@ struct Outcome {
 }
 
 impl Slice<'_> {
-    /// Fills in the bytes of the slice.
-    fn bake(&self, bytes: &mut [u8]) -> Result<Outcome> {
-        match self.plan.request.accuracy() {
-            Accuracy::Rounded | Accuracy::Within(_) => self.certified(bytes),
-            Accuracy::Tolerance(_) | Accuracy::Rule(_) => self.uncertified(bytes),
+    /// Fills in the bytes of the slice, part by part.
+    fn bake(&self, bytes: &mut [u8]) -> Result<Vec<(Part, Outcome)>> {
+        let Plan { request, parts, .. } = self.plan;
+        let precision = request.precision();
+        let mut sheet = Sheet::new(self.packing, request.grid(), precision, bytes);
+        let mut outcomes = Vec::new();
+        for (part, plan) in self.packing.parts().into_iter().zip(parts) {
+            let on = PartOfSlice { slice: self, part: &part, plan };
+            let outcome = match request.accuracy() {
+                Accuracy::Rounded | Accuracy::Within(_) => on.certified(&mut sheet)?,
+                Accuracy::Tolerance(_) | Accuracy::Rule(_) => on.uncertified(&mut sheet)?,
+                Accuracy::Estimator(estimator) => on.estimated(&mut sheet, estimator)?,
+            };
+            outcomes.push((part, outcome));
         }
+        sheet.fill();
+        let coarser = sheet.finish()?;
+        let hash = hash(bytes);
+        for (_, outcome) in &mut outcomes {
+            match &mut outcome.claim {
+                Claim::Certificate(certificate) => {
+                    certificate.blake3.clone_from(&hash);
+                    certificate.bound += coarser;
+                }
+                Claim::Uncertified { .. } | Claim::Estimated { .. } => (),
+            }
+        }
+        Ok(outcomes)
     }
 
     /// The bands of the grid, each with the row of the grid at which it begins.
@@ -115,37 +147,51 @@ impl Slice<'_> {
         let rows = (BAND / grid.mus.len()).max(1);
         (0..grid.alphas.len()).step_by(rows).map(move |first| (first, grid.band(first, rows)))
     }
+}
 
-    fn sheet<'a>(&'a self, bytes: &'a mut [u8]) -> Sheet<'a> {
-        let request = self.plan.request;
-        Sheet::new(self.lut, request.grid(), request.precision(), bytes)
+/// A part of a slice.
+struct PartOfSlice<'a> {
+    slice: &'a Slice<'a>,
+    part: &'a Part,
+    plan: &'a PartPlan,
+}
+
+impl PartOfSlice<'_> {
+    /// The device and its rule; none where the CPU does the part.
+    fn device(&self) -> Option<(&Gpu, Rule)> {
+        self.slice.plan.device.zip(self.plan.device_rule)
     }
 
     fn computed(&self, device_seconds: Option<f64>) -> Computed {
-        let reason = self.plan.reason.clone();
-        match self.plan.device {
-            None => Computed::Cpu { reason },
-            Some((gpu, _)) => {
-                Computed::Vulkan { device: gpu.info().clone(), reason, device_seconds }
+        let plan = self.slice.plan;
+        match (plan.device, self.device()) {
+            (_, Some((gpu, _))) => Computed::Vulkan {
+                device: gpu.info().clone(),
+                reason: plan.reason.clone(),
+                device_seconds,
+            },
+            (None, None) => Computed::Cpu { reason: plan.reason.clone() },
+            (Some(_), None) => {
+                Computed::Cpu { reason: Some("it has nothing to integrate there".into()) }
             }
         }
     }
 
     /// Certifies every value.
-    fn certified(&self, bytes: &mut [u8]) -> Result<Outcome> {
-        let Plan { request, rules, device, .. } = self.plan;
-        let whole = task(request, self.lut, request.grid());
+    fn certified(&self, sheet: &mut Sheet) -> Result<Outcome> {
+        let (request, part) = (self.slice.plan.request, self.part);
+        let (device, progress) = (self.device(), self.slice.progress);
+        let whole = task(request, part, request.grid());
         let (mut seconds, mut device_seconds, mut tally) =
             (Seconds::default(), None, Tally::default());
         let start = Instant::now();
-        let stages = Stages::by(&whole, rules);
+        let stages = Stages::by(&whole, &self.plan.rules);
         seconds.integrate += start.elapsed().as_secs_f64();
-        let mut sheet = self.sheet(bytes);
-        for (first, band) in self.bands() {
+        for (first, band) in self.slice.bands() {
             let start = Instant::now();
-            let by_device = match device {
+            let by_device = match &device {
                 Some((gpu, rule)) => {
-                    let baked = on_device(gpu, self.lut.integrand(), &band, rule, self.progress)?;
+                    let baked = on_device(gpu, part.integrand(), &band, rule, progress)?;
                     device_seconds = sum(device_seconds, baked.device_seconds);
                     seconds.integrate += start.elapsed().as_secs_f64();
                     Some((gpu, rule, baked.integrals))
@@ -158,48 +204,45 @@ impl Slice<'_> {
                 rule,
                 name: &gpu.info().name,
             });
-            let progress = if device.is_some() { &|_| () } else { self.progress };
-            let band = task(request, self.lut, &band);
+            let progress = if device.is_some() { &|_| () } else { progress };
+            let band = task(request, part, &band);
             let (values, found) = certify_band(&band, &stages, by_device, progress)?;
-            sheet.put(first, &values);
+            sheet.put(part, first, &values);
             let took = if device.is_some() { &mut seconds.check } else { &mut seconds.integrate };
             *took += start.elapsed().as_secs_f64();
             tally = tally.merge(found);
         }
-        sheet.finish()?;
-        let claim = Claim::Certificate(tally.certificate(&whole, &stages, hash(bytes))?);
+        let claim = Claim::Certificate(tally.certificate(&whole, &stages, String::new())?);
         let computed = self.computed(device_seconds);
         Ok(Outcome { claim, stages: tally.stages, checks: None, computed, seconds })
     }
 
     /// Integrates by one rule, and checks a sample.
-    fn uncertified(&self, bytes: &mut [u8]) -> Result<Outcome> {
-        let Plan { request, device, .. } = self.plan;
-        let integrand = self.lut.integrand();
-        let rule =
-            self.plan.rule().ok_or_else(|| Error::Internal("no rule for this tolerance".into()))?;
+    fn uncertified(&self, sheet: &mut Sheet) -> Result<Outcome> {
+        let (request, part) = (self.slice.plan.request, self.part);
+        let integrand = part.integrand();
+        let rule = self.plan.rule(self.device().is_some());
+        let rule = rule.ok_or_else(|| Error::Internal("no rule for this tolerance".into()))?;
         let start = Instant::now();
         let mut integration = Integration {
             integrand,
             baker: Baker::new(integrand, &rule),
-            gpu: device.map(|(gpu, _)| gpu),
-            measured_points: MEASURED.div_ceil(self.bands().count()),
+            gpu: self.device().map(|(gpu, _)| gpu),
+            measured_points: MEASURED.div_ceil(self.slice.bands().count()),
             checked: Checked::default(),
         };
         integration.checked.seconds.integrate += start.elapsed().as_secs_f64();
         let mut bound = 0.0f64;
-        let mut sheet = self.sheet(bytes);
-        for (first, band) in self.bands() {
-            let points = integration.over(&band, self.progress)?;
-            let averages = match self.lut.needs_averages() {
+        for (first, band) in self.slice.bands() {
+            let points = integration.over(&band, self.slice.progress)?;
+            let averages = match part.needs_averages() {
                 true => integration.averages(&band)?,
                 false => vec![Vec::new(); band.alphas.len()],
             };
             let (values, error) = self.channels(&integration, &band, &points, &averages);
             bound = bound.max(error);
-            sheet.put(first, &values);
+            sheet.put(part, first, &values);
         }
-        sheet.finish()?;
         if !bound.is_finite() {
             return Err(unbounded());
         }
@@ -213,12 +256,49 @@ impl Slice<'_> {
             computed_by: computed.to_string(),
         };
         let checks = Checks {
-            evaluations: rule.evaluations(plan::points(request)) as f64 / grid.len() as f64,
+            evaluations: rule.evaluations(plan::points(request, part)) as f64 / grid.len() as f64,
             cross_check: on_device.then_some(cross_check),
             measured,
             integrals: integrand.names(),
             rounding: request.precision().half_step(),
         };
+        Ok(Outcome { claim, stages: Vec::new(), checks: Some(checks), computed, seconds })
+    }
+
+    /// Repeats an engine's own numbers, and measures how far they are from the truth.
+    fn estimated(&self, sheet: &mut Sheet, estimator: Hammersley) -> Result<Outcome> {
+        let (part, request) = (self.part, self.slice.plan.request);
+        let integrand = part.integrand();
+        let start = Instant::now();
+        let (mut measured, mut seconds) = (Deviation::default(), Seconds::default());
+        let points = estimator.points();
+        let measured_points = MEASURED.div_ceil(self.slice.bands().count());
+        for (first, band) in self.slice.bands() {
+            let field = by_estimator(integrand, &band, &points, self.slice.progress);
+            let value = |(i, integrals): (usize, &[f64])| {
+                let balls: Vec<Ball> = integrals.iter().copied().map(Ball::exact).collect();
+                let values = part.values(band.point(i).0, &balls, &[]);
+                values.map(|ball| request.precision().stored(ball.value)).into_iter()
+            };
+            let values = field.iter().enumerate().flat_map(|texel| value(texel).take(part.count()));
+            sheet.put(part, first, &values.collect::<Vec<f64>>());
+            let found =
+                measure(integrand, &band, &REFERENCE, f64::INFINITY, &field, measured_points)?;
+            measured = measured.merge(found);
+        }
+        seconds.integrate += start.elapsed().as_secs_f64();
+        let claim = Claim::Estimated {
+            estimator: estimator.to_string(),
+            measured_error: (measured.max(), measured.points),
+        };
+        let checks = Checks {
+            evaluations: f64::from(estimator.count),
+            cross_check: None,
+            measured,
+            integrals: integrand.names(),
+            rounding: request.precision().half_step(),
+        };
+        let computed = self.computed(None);
         Ok(Outcome { claim, stages: Vec::new(), checks: Some(checks), computed, seconds })
     }
 
@@ -231,20 +311,20 @@ impl Slice<'_> {
         points: &Field,
         averages: &[Vec<Ball>],
     ) -> (Vec<f64>, f64) {
-        let (lut, precision) = (self.lut, self.plan.request.precision());
-        // No channel is negative. Where none exceeds 1 either, an estimate that does is nearer to
-        // the truth at 1.
-        let at_most_one = lut.at_most_one();
-        let count = lut.channels().len();
+        let (part, precision) = (self.part, self.slice.plan.request.precision());
+        // Where no channel is negative or exceeds 1, an estimate that is or does is nearer to the
+        // truth at that end.
+        let (at_most_one, nonnegative) = (part.at_most_one(), part.nonnegative());
+        let count = part.count();
         let (mut values, mut worst) = (Vec::with_capacity(points.len() * count), 0.0f64);
         for (i, integrals) in points.iter().enumerate() {
             let (mu, alpha) = band.point(i);
             let integrals = integration.within_bound(alpha, integrals, 0.0);
-            let channels = lut.values(mu, &integrals, &averages[i / band.mus.len()]);
+            let channels = part.values(mu, &integrals, &averages[i / band.mus.len()]);
             for Ball { value, error } in channels.into_iter().take(count) {
                 worst = worst.max(error / value.abs().max(1.0));
-                let value =
-                    precision.pulled_in(value, error, if at_most_one { error } else { 0.0 });
+                let allowed = |known: bool| if known { error } else { 0.0 };
+                let value = precision.pulled_in(value, allowed(nonnegative), allowed(at_most_one));
                 values.push(precision.stored(value));
             }
         }
@@ -258,10 +338,12 @@ pub fn hash(bytes: &[u8]) -> String {
 }
 
 /// The certification of a part of a table.
-fn task<'a>(request: &Request, lut: &'a Lut, grid: &'a Grid) -> Task<'a> {
+fn task<'a>(request: &Request, lut: &'a Part, grid: &'a Grid) -> Task<'a> {
     let tolerance = match request.accuracy() {
         Accuracy::Within(tolerance) | Accuracy::Tolerance(tolerance) => tolerance,
-        Accuracy::Rounded | Accuracy::Rule(_) => request.precision().default_tolerance(),
+        Accuracy::Rounded | Accuracy::Rule(_) | Accuracy::Estimator(_) => {
+            request.precision().default_tolerance()
+        }
     };
     Task { lut, grid, precision: request.precision(), tolerance }
 }

@@ -11,9 +11,11 @@ mod depfile;
 mod device_args;
 mod devices;
 mod furnace;
+mod lookup;
 mod message;
 mod output;
 mod place;
+mod presets;
 mod preview;
 mod progress;
 mod resources;
@@ -49,6 +51,10 @@ enum Command {
     Furnace(furnace::FurnaceArgs),
     /// Render spheres lit by a light, a furnace or a sky
     Preview(preview::PreviewArgs),
+    /// List the tables that engines expect, or describe one
+    Presets(presets::PresetsArgs),
+    /// Print code that looks a table up, in a shading language, C or Rust
+    Lookup(Box<lookup::LookupArgs>),
     /// List the Vulkan devices, the preferred one first
     Devices(devices::DevicesArgs),
     /// Print completions for a shell
@@ -81,6 +87,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Chart(arguments) => chart::run(&arguments),
         Command::Furnace(arguments) => furnace::run(&arguments),
         Command::Preview(arguments) => preview::run(&arguments),
+        Command::Presets(arguments) => presets::run(&arguments),
+        Command::Lookup(arguments) => lookup::run(&arguments),
         Command::Devices(arguments) => devices::run(&arguments),
         Command::Completions(arguments) => completions::print_completions(&arguments),
         Command::Man(arguments) => completions::print_manual(&arguments),

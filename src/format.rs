@@ -1,12 +1,22 @@
 //! File formats: a table as the bytes of a file. Encoders are pure: the same table gives the same
 //! bytes, on every machine.
 
+pub mod code;
+pub mod dds;
+pub mod encoding;
 #[cfg(feature = "exr")]
 pub mod exr;
+#[cfg(feature = "ktx2")]
+pub mod ktx2;
 #[cfg(feature = "serde")]
 pub mod metadata;
 #[cfg(feature = "png")]
 pub mod png;
+pub mod npy;
+pub mod raw;
+pub mod texels;
+
+pub use encoding::{Encoding, Style};
 
 use crate::choice::words;
 use crate::error::{Error, Result};
@@ -14,6 +24,7 @@ use crate::table::Table;
 use crate::table::precision::Precision;
 use std::io::{Cursor, Seek, Write};
 use std::path::Path;
+use texels::Texels;
 
 /// A file that encoders write.
 pub trait WriteSeek: Write + Seek {}
@@ -25,13 +36,19 @@ impl<T: Write + Seek> WriteSeek for T {}
 pub struct Format {
     /// The extension of its files, which is its word too.
     extension: &'static str,
+    /// It in a line, for `--help`.
+    about: &'static str,
     /// The storages that it has, the default one first.
     precisions: &'static [Precision],
-    /// The names of its channels; a table with fewer fills up with zeros.
-    channels: &'static [&'static str],
+    /// The numbers of components that a texel can have, ascending.
+    components: &'static [usize],
+    /// The fewest without a wish: many readers refuse less.
+    fewest: usize,
     /// Whether a file holds several slices.
     slices: bool,
-    write: fn(&Table, &mut dyn WriteSeek) -> Result<()>,
+    /// The flags of [`Style`] that it follows, besides components.
+    options: &'static [&'static str],
+    write: fn(&Texels, &mut dyn WriteSeek) -> Result<()>,
 }
 
 /// All formats, the default one first.
@@ -39,21 +56,155 @@ pub const FORMATS: &[Format] = &[
     #[cfg(feature = "exr")]
     Format {
         extension: "exr",
+        about: "OpenEXR; slices are parts",
         precisions: &[Precision::F16, Precision::F32],
+        components: &[3, 4],
         // three.js refuses files with fewer.
-        channels: &["R", "G", "B"],
+        fewest: 3,
         slices: true,
+        options: &[],
         write: exr::write,
     },
     #[cfg(feature = "png")]
     Format {
         extension: "png",
-        precisions: &[Precision::Unorm16, Precision::Unorm8],
-        channels: &["R", "G", "B"],
+        about: "a picture of the table",
+        precisions: &[Precision::Unorm16, Precision::Unorm8, Precision::Srgb8, Precision::Rgbd8],
+        components: &[1, 3, 4],
+        fewest: 3,
         slices: false,
+        options: &[],
         write: png::write,
     },
+    #[cfg(feature = "ktx2")]
+    Format {
+        extension: "ktx2",
+        about: "KTX2, a texture as GPUs take it, with the metadata",
+        precisions: &[
+            Precision::F16,
+            Precision::F32,
+            Precision::Unorm16,
+            Precision::Unorm8,
+            Precision::A2b10g10r10,
+            Precision::Srgb8,
+            Precision::Rgbd8,
+        ],
+        components: &[1, 2, 4],
+        fewest: 1,
+        slices: true,
+        options: &["supercompress", "slices-as"],
+        write: ktx2::write,
+    },
+    Format {
+        extension: "dds",
+        about: "DirectDraw Surface with the header of Direct3D 10",
+        precisions: &[
+            Precision::F16,
+            Precision::F32,
+            Precision::Unorm16,
+            Precision::Unorm8,
+            Precision::A2b10g10r10,
+            Precision::Srgb8,
+            Precision::Rgbd8,
+        ],
+        components: &[1, 2, 4],
+        // Most readers refuse fewer: on request.
+        fewest: 4,
+        slices: true,
+        options: &["slices-as"],
+        write: dds::write,
+    },
+    Format {
+        extension: "npy",
+        about: "an array of NumPy: (slices,) rows, columns, components",
+        precisions: &[
+            Precision::F16,
+            Precision::F32,
+            Precision::Unorm16,
+            Precision::Unorm8,
+            Precision::Srgb8,
+            Precision::Rgbd8,
+        ],
+        components: &[1, 2, 3, 4],
+        fewest: 1,
+        slices: true,
+        options: &[],
+        write: npy::write,
+    },
+    Format {
+        extension: "raw",
+        about: "the texels alone, little-endian, row by row",
+        precisions: &[
+            Precision::F16,
+            Precision::F32,
+            Precision::Unorm16,
+            Precision::Unorm8,
+            Precision::A2b10g10r10,
+            Precision::Srgb8,
+            Precision::Rgbd8,
+        ],
+        components: &[1, 2, 3, 4],
+        fewest: 1,
+        slices: true,
+        options: &[],
+        write: raw::write,
+    },
+    Format {
+        extension: "h",
+        about: "a header of C and C++: array and lookup",
+        write: code::h,
+        ..CODE
+    },
+    Format {
+        extension: "rs",
+        about: "a module of Rust: array and lookup",
+        write: code::rs,
+        ..CODE
+    },
+    Format {
+        extension: "js",
+        about: "a module of JavaScript: a typed array",
+        write: code::js,
+        ..CODE
+    },
+    Format {
+        extension: "ts",
+        about: "a module of TypeScript: a typed array",
+        write: code::ts,
+        ..CODE
+    },
+    Format { extension: "wgsl", about: "array and lookup in WGSL", write: code::wgsl, ..CODE },
+    Format { extension: "glsl", about: "array and lookup in GLSL", write: code::glsl, ..CODE },
+    Format { extension: "hlsl", about: "array and lookup in HLSL", write: code::hlsl, ..CODE },
+    Format { extension: "metal", about: "array and lookup in Metal", write: code::metal, ..CODE },
+    Format {
+        extension: "txt",
+        about: "the numbers alone, to be included in an array",
+        write: code::txt,
+        options: &["numbers"],
+        ..CODE
+    },
 ];
+
+/// What all source code has in common.
+const CODE: Format = Format {
+    extension: "",
+    about: "",
+    precisions: &[
+        Precision::F16,
+        Precision::F32,
+        Precision::Unorm16,
+        Precision::Unorm8,
+        Precision::A2b10g10r10,
+        Precision::Srgb8,
+        Precision::Rgbd8,
+    ],
+    components: &[1, 2, 3, 4],
+    fewest: 1,
+    slices: true,
+    options: &["numbers", "symbol"],
+    write: code::txt,
+};
 
 impl Format {
     /// The format with this word.
@@ -86,6 +237,16 @@ impl Format {
         self.extension
     }
 
+    /// It in a line, for `--help`.
+    pub fn about(&self) -> &'static str {
+        self.about
+    }
+
+    /// Whether its files are textures as graphics APIs have them.
+    fn is_texture(&self) -> bool {
+        self.options.contains(&"slices-as")
+    }
+
     /// The storages that it has, the default one first.
     pub fn precisions(&self) -> &'static [Precision] {
         self.precisions
@@ -102,73 +263,22 @@ impl Format {
         let cure = "choose one of these or another format";
         Err(Error::bad_input("precision", expected, wanted.to_string(), cure))
     }
-
-    /// Refuses a number of slices or channels that a file does not hold.
-    pub fn check(&self, slices: usize, channels: usize) -> Result<()> {
-        if slices > 1 && !self.slices {
-            let (expected, got) =
-                (format!("one slice in a .{}", self.extension), slices.to_string());
-            let several = extensions(".", |format| format.slices);
-            let cure = match several.is_empty() {
-                true => "write one slice at a time".into(),
-                false => format!("choose {several}, or write one slice at a time"),
-            };
-            return Err(Error::bad_input("slices", expected, got, cure));
-        }
-        if channels > self.channels.len() {
-            let expected =
-                format!("at most {} channels in a .{}", self.channels.len(), self.extension);
-            return Err(Error::bad_input(
-                "channels",
-                expected,
-                channels.to_string(),
-                "choose fewer, or another format",
-            ));
-        }
-        Ok(())
-    }
-
-    /// Writes a file, as it is encoded; an error where the format does not hold the table.
-    pub fn write(&self, table: &Table, file: &mut dyn WriteSeek) -> Result<()> {
-        self.precision(Some(table.precision()))?;
-        self.check(table.layout().slice_count(), table.channels().len())?;
-        (self.write)(table, file)
-    }
 }
 
-/// The extensions of the formats that `serve`, as in `.exr or .png`.
+/// The extensions of the formats that `serve`, as in `.exr, .png`.
 fn extensions(dot: &str, serve: impl Fn(&Format) -> bool) -> String {
     let known = FORMATS.iter().filter(|format| serve(format));
-    known.map(|format| format!("{dot}{}", format.extension)).collect::<Vec<_>>().join(" or ")
+    known.map(|format| format!("{dot}{}", format.extension)).collect::<Vec<_>>().join(", ")
 }
 
 /// The bytes of a file.
-pub fn encode(table: &Table, format: &Format) -> Result<Vec<u8>> {
+pub fn encode(table: &Table, format: &'static Format) -> Result<Vec<u8>> {
     let mut file = Cursor::new(Vec::new());
-    format.write(table, &mut file)?;
+    Encoding::of(table, format)?.write(table, &mut file)?;
     Ok(file.into_inner())
 }
 
-/// The stored bytes of a channel of a texel of a slice, little-endian; zeros of a channel that the
-/// table has not.
-#[cfg(any(feature = "exr", feature = "png"))]
-#[inline]
-fn texel_bytes<const N: usize>(
-    table: &Table,
-    slice: usize,
-    (i, j): (usize, usize),
-    channel: usize,
-) -> [u8; N] {
-    let channels = table.channels().len();
-    if channel >= channels {
-        return [0; N];
-    }
-    let value = (j * table.x().size() + i) * channels + channel;
-    table.bytes(slice)[value * N..].first_chunk().copied().unwrap_or([0; N])
-}
-
 /// The error of a system that refuses to write; whoever opened the file knows its name.
-#[cfg(any(feature = "exr", feature = "png"))]
 fn failed(source: std::io::Error) -> Error {
     Error::Io {
         action: "write",

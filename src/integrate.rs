@@ -12,6 +12,7 @@ pub mod double_exponential;
 pub mod errors;
 pub mod field;
 pub mod half_vectors;
+pub mod hammersley;
 pub mod interpolant;
 pub mod light_directions;
 pub mod pick;

@@ -12,8 +12,10 @@
 //! # Ok::<(), splitsum::Error>(())
 //! ```
 //!
-//! [`encode`] makes a file of a table. A [`Plan`] tells beforehand which rules and which device a
-//! bake takes, and takes a progress callback.
+//! [`packing`] puts channels of several lobes into a texel, from their words. [`encode`] makes a file
+//! of a table, an [`Encoding`] one in another style, and a [`Lookup`] the code that reads it. A
+//! [`Plan`] tells beforehand which rules and which device a bake takes, and takes a progress
+//! callback.
 //!
 //! The names above are the library; the modules below are its inside, open to its own tests and
 //! program. Data flows one way:
@@ -41,7 +43,9 @@
 //!   the reference
 //! - `report`: the report of a bake
 //! - `bake`: the plan of a bake and its execution
+//! - `lookup`: code that looks a table up, in six languages
 //! - `format`: a table as the bytes of a file
+//! - `preset`: the tables that engines expect, as flags
 //! - `furnace`: the energy that a material gives back in a white furnace
 //! - `preview`: spheres lit with tables and with integrals
 //! - `compare`: methods compared: estimators, fits, textbook formulas; studies and charts
@@ -80,7 +84,12 @@ pub mod report;
 #[doc(hidden)]
 pub mod bake;
 #[doc(hidden)]
+pub mod lookup;
+#[doc(hidden)]
 pub mod format;
+#[doc(hidden)]
+#[cfg(feature = "cli")]
+pub mod preset;
 #[doc(hidden)]
 #[cfg(feature = "cli")]
 pub mod furnace;
@@ -100,14 +109,18 @@ pub use bake::{Baked, Plan, bake};
 pub use brdf::{Diffuse, Fresnel, Masking, Microfacet, Ndf};
 pub use choice::Choice;
 pub use error::{Complaint, Error, ExitCode, Result};
-pub use format::{FORMATS, Format, encode};
+pub use format::encoding::{Notation, Supercompress};
+pub use format::{Encoding, FORMATS, Format, Style, encode};
+pub use integrate::hammersley::{Frame, Hammersley};
 pub use integrate::rule::Rule;
-pub use lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
+pub use lookup::{Extra, Language, Lookup, Store};
+pub use lut::terms::packing;
+pub use lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut, Packing};
 pub use report::{Checks, Computed, Report, Seconds};
 pub use request::{Accuracy, Request};
 pub use table::axis::{Axis, AxisSpec, Mapping, Nodes, Parameter};
 pub use table::claim::{Certificate, Claim, Stage, StageError};
 pub use table::precision::Precision;
-pub use table::slices::Slices;
-pub use table::{Channel, Layout, Provenance, Table};
+pub use table::slices::{Slices, SlicesAs};
+pub use table::{Channel, Layout, Part, Provenance, Table};
 pub use units::{F0, Ior};

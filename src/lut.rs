@@ -2,10 +2,13 @@
 
 pub mod dfg;
 pub mod energy;
+pub mod packing;
 pub mod sheet;
+pub mod terms;
 
 pub use dfg::{Dfg, DfgChannels};
 pub use energy::{Energy, EnergyChannels};
+pub use packing::{Content, Packing, Part, Source};
 
 use crate::brdf::{Diffuse, Microfacet};
 use crate::choice::Choice;
@@ -31,8 +34,7 @@ pub enum Lut {
 }
 
 /// The channel of a diffuse lobe's table.
-const ALBEDO: Channel =
-    Channel { name: "E", meaning: "directional albedo of a white surface: integral of f(l,v) n.l" };
+const ALBEDO: (&str, &str) = ("E", "directional albedo of a white surface: integral of f(l,v) n.l");
 
 impl Lut {
     /// The name of the family.
@@ -99,20 +101,21 @@ impl Lut {
     pub fn channels(&self) -> Vec<Channel> {
         match self {
             Lut::Dfg(dfg) => dfg.list(),
-            Lut::Energy(energy) => energy.channels().list().to_vec(),
-            Lut::Diffuse(_) => vec![ALBEDO],
+            Lut::Energy(energy) => {
+                let named =
+                    |&(name, meaning): &(&'static str, &'static str)| Channel::new(name, meaning);
+                energy.channels().list().iter().map(named).collect()
+            }
+            Lut::Diffuse(_) => vec![Channel::new(ALBEDO.0, ALBEDO.1)],
         }
     }
 
     /// The choices of the family as flags.
     pub fn flags(&self) -> String {
-        let lobe = |Microfacet { ndf, masking }| format!("--model {ndf} --masking {masking}");
         match self {
-            Lut::Dfg(dfg) => {
-                format!("{}{} --channels {}", lobe(dfg.lobe()), dfg.fresnel_flag(), dfg.word())
-            }
+            Lut::Dfg(dfg) => format!("{} --channels {}", dfg.lobe_flags(), dfg.word()),
             Lut::Energy(energy) => {
-                format!("{} --channels {}", lobe(energy.lobe()), energy.channels())
+                format!("{} --channels {}", lobe_flags(energy.lobe()), energy.channels())
             }
             Lut::Diffuse(diffuse) => format!("--model {diffuse}"),
         }
@@ -156,6 +159,11 @@ impl Lut {
             Lut::Diffuse(_) => first(integrals),
         }
     }
+}
+
+/// A lobe as flags.
+fn lobe_flags(Microfacet { ndf, masking }: Microfacet) -> String {
+    format!("--model {ndf} --masking {masking}")
 }
 
 /// The first balls of a list, and zeros.

@@ -52,7 +52,7 @@ pub struct Seconds {
     pub check: f64,
 }
 
-/// The report of a slice.
+/// The report of a part of a slice.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Report {
@@ -61,9 +61,12 @@ pub struct Report {
     /// The slice, as in `F0 = 0.04`; none of a table over two axes.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub slice: Option<String>,
+    /// The channels that it is about, where others are integrated from another lobe.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub channels: Option<String>,
     /// Columns and rows.
     pub size: [usize; 2],
-    /// Columns and rows that hold the value at their axis's min instead of their own.
+    /// Columns and rows that hold the value at their axis's min or max instead of their own.
     pub clamped: [usize; 2],
     /// The backend.
     pub computed: Computed,
@@ -112,6 +115,10 @@ impl Report {
                 }
                 writeln!(f, "blake3    {}", certificate.blake3)
             }
+            Claim::Estimated { estimator, .. } => {
+                writeln!(f, "estimator {estimator}; not certified")?;
+                self.checks.iter().try_for_each(|checks| write!(f, "{checks}"))
+            }
             Claim::Uncertified { rule, error_bound, .. } => {
                 writeln!(f, "rule      {rule}; not certified, error at most {error_bound:.1e}")?;
                 self.checks.iter().try_for_each(|checks| write!(f, "{checks}"))
@@ -149,7 +156,10 @@ impl fmt::Display for Report {
         self.write_claim(f)?;
         let [columns, rows] = self.clamped;
         if columns + rows > 0 {
-            writeln!(f, "clamped   {columns} columns and {rows} rows to the min of their axes")?;
+            writeln!(
+                f,
+                "clamped   {columns} columns and {rows} rows to the min or max of an axis"
+            )?;
         }
         let Seconds { integrate, check } = self.seconds;
         let each = 1e6 * integrate / (width * height) as f64;

@@ -1,13 +1,14 @@
 //! A checked job: a table, its axes, its accuracy and its storage. It prints itself as the command
 //! that repeats it.
 
-use crate::brdf::Microfacet;
+use crate::brdf::{Microfacet, Ndf};
 use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::integrate::Integrand;
+use crate::integrate::hammersley::Hammersley;
 use crate::integrate::rule::Rule;
 use crate::integrate::rules::RULES;
-use crate::lut::Lut;
+use crate::lut::{Content, Lut, Packing, Source};
 use crate::table::Layout;
 use crate::table::axis::{Axis, AxisSpec, Parameter};
 use crate::table::grid::Grid;
@@ -27,35 +28,35 @@ pub enum Accuracy {
     Tolerance(f64),
     /// Not certified: integrals by this rule.
     Rule(Rule),
+    /// Not certified and without a bound: an engine's own estimator.
+    Estimator(Hammersley),
 }
 
 impl Accuracy {
-    /// Certified; f32 within the tolerance that befits it and the lobe, which f64 by the rules of
-    /// devices keeps.
-    pub fn by_default(lut: &Lut, precision: Precision) -> Self {
-        let tolerance =
-            || precision.default_tolerance().max(Rule::sharpest_device_bound(lut.integrand()));
-        match precision {
-            Precision::F32 => Accuracy::Within(tolerance()),
-            Precision::F16 | Precision::Unorm16 | Precision::Unorm8 | Precision::F64 => {
-                Accuracy::Rounded
-            }
+    /// Certified; what is stored within a tolerance within the one that befits it and the lobe,
+    /// which f64 by the rules of devices keeps.
+    pub fn by_default(packing: &Packing, precision: Precision) -> Self {
+        if precision.is_rounded_once() {
+            return Accuracy::Rounded;
         }
+        let sharpest = |lut: &Lut| Rule::sharpest_device_bound(lut.integrand());
+        let tolerance = precision.default_tolerance();
+        Accuracy::Within(packing.luts().iter().map(sharpest).fold(tolerance, f64::max))
     }
 
     /// Not certified, with a tolerance that befits the precision and that a device can keep of the
-    /// table's integrand.
-    pub fn uncertified(lut: &Lut, precision: Precision) -> Self {
-        Accuracy::Tolerance(
-            precision.default_tolerance().max(Rule::device_tolerance(lut.integrand())),
-        )
+    /// table's integrands.
+    pub fn uncertified(packing: &Packing, precision: Precision) -> Self {
+        let of_device = |lut: &Lut| Rule::device_tolerance(lut.integrand());
+        let tolerance = precision.default_tolerance();
+        Accuracy::Tolerance(packing.luts().iter().map(of_device).fold(tolerance, f64::max))
     }
 }
 
 /// A checked job.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
-    lut: Lut,
+    packing: Packing,
     layout: Layout,
     grid: Grid,
     accuracy: Accuracy,
@@ -68,33 +69,43 @@ pub const DEFAULT_SIZE: usize = 128;
 impl Request {
     /// Checks that the parts fit together.
     pub fn new(
-        lut: Lut,
+        packing: impl Into<Packing>,
         x: Axis,
         y: Axis,
         accuracy: Accuracy,
         precision: Precision,
     ) -> Result<Self> {
-        let grid = Grid::new(&x, &y)?;
-        if let Integrand::Specular(lobe, _) = lut.integrand() {
-            check_finite(lobe, &grid)?;
+        let (packing, grid) = (packing.into(), Grid::new(&x, &y)?);
+        for lut in packing.luts() {
+            if let Integrand::Specular(lobe, _) = lut.integrand() {
+                check_finite(lobe, &grid)?;
+                check_alpha(lobe, &grid)?;
+            }
         }
-        check_accuracy(&lut, &grid, accuracy, precision)?;
-        let layout = Layout { x, y, slices: None, channels: lut.channels() };
-        Ok(Request { lut, layout, grid, accuracy, precision })
+        check_accuracy(&packing, &grid, accuracy, precision)?;
+        check_channels(&packing, precision)?;
+        let layout = Layout { x, y, slices: None, channels: packing.channels() };
+        Ok(Request { packing, layout, grid, accuracy, precision })
     }
 
     /// The table that every engine needs: x = n·v, y = perceptual roughness, texel centres;
     /// certified.
-    pub fn with_default_axes(lut: Lut, size: (usize, usize), precision: Precision) -> Result<Self> {
+    pub fn with_default_axes(
+        packing: impl Into<Packing>,
+        size: (usize, usize),
+        precision: Precision,
+    ) -> Result<Self> {
+        let packing = packing.into();
         let x = Axis::new(AxisSpec::of(Parameter::Nov), size.0)?;
         let y = Axis::new(AxisSpec::of(Parameter::Roughness), size.1)?;
-        Request::new(lut, x, y, Accuracy::by_default(&lut, precision), precision)
+        let accuracy = Accuracy::by_default(&packing, precision);
+        Request::new(packing, x, y, accuracy, precision)
     }
 
     /// The same table in slices; an error where it does not vary with their parameter.
     pub fn with_slices(mut self, slices: Slices) -> Result<Self> {
         for &value in slices.values() {
-            self.lut.at(slices.parameter(), value)?;
+            self.packing.at(slices.parameter(), value)?;
         }
         self.layout.slices = Some(slices);
         Ok(self)
@@ -102,23 +113,24 @@ impl Request {
 
     /// The same table with another accuracy and storage.
     pub fn stored(&self, accuracy: Accuracy, precision: Precision) -> Result<Self> {
-        check_accuracy(&self.lut, &self.grid, accuracy, precision)?;
+        check_accuracy(&self.packing, &self.grid, accuracy, precision)?;
+        check_channels(&self.packing, precision)?;
         Ok(Request { accuracy, precision, ..self.clone() })
     }
 
-    /// The family of tables with its choices.
-    pub fn lut(&self) -> &Lut {
-        &self.lut
+    /// What a texel holds.
+    pub fn packing(&self) -> &Packing {
+        &self.packing
     }
 
-    /// The table of each slice; of a table without slices its own.
-    pub fn luts(&self) -> Result<Vec<Lut>> {
+    /// What a texel of each slice holds; of a table without slices any.
+    pub fn packings(&self) -> Result<Vec<Packing>> {
         match &self.layout.slices {
-            None => Ok(vec![self.lut]),
+            None => Ok(vec![self.packing.clone()]),
             Some(slices) => slices
                 .values()
                 .iter()
-                .map(|&value| self.lut.at(slices.parameter(), value))
+                .map(|&value| self.packing.at(slices.parameter(), value))
                 .collect(),
         }
     }
@@ -164,17 +176,66 @@ fn check_finite(lobe: Microfacet, grid: &Grid) -> Result<()> {
     Ok(())
 }
 
+/// Refuses an α that the distribution has not.
+fn check_alpha(lobe: Microfacet, grid: &Grid) -> Result<()> {
+    let most = lobe.ndf.most_alpha();
+    match grid.alphas.iter().find(|&&alpha| alpha > most) {
+        None => Ok(()),
+        Some(alpha) => {
+            let (expected, got) = (format!("alpha up to {most} for {}", lobe.ndf), short(*alpha));
+            Err(Error::bad_input("axis of roughness", expected, got, "leave out unclamped"))
+        }
+    }
+}
+
+/// Refuses channels for which the storage has no bits.
+fn check_channels(packing: &Packing, precision: Precision) -> Result<()> {
+    let contents = packing.contents();
+    let wrong = |expected: &str, got: String| {
+        let what = format!("channels in {precision}");
+        Err(Error::bad_input(what, expected, got, "choose others, or another precision"))
+    };
+    match (precision, contents.get(3)) {
+        (Precision::Rgbd8, Some(_)) => wrong("at most 3, since D is the fourth", "4".into()),
+        // The fourth has 2 bits, or is on no curve.
+        (Precision::A2b10g10r10 | Precision::Srgb8, Some(&Content { source, offset, .. }))
+            if source != Source::Constant || ![0.0, 1.0].contains(&offset) =>
+        {
+            wrong("0 or 1 as the fourth", packing.channels().swap_remove(3).name)
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Refuses an accuracy that the storage does not have or no rule keeps.
-fn check_accuracy(lut: &Lut, grid: &Grid, accuracy: Accuracy, precision: Precision) -> Result<()> {
+fn check_accuracy(
+    packing: &Packing,
+    grid: &Grid,
+    accuracy: Accuracy,
+    precision: Precision,
+) -> Result<()> {
+    packing.luts().iter().try_for_each(|lut| check_part(lut, grid, accuracy, precision))
+}
+
+/// Refuses n·v = 0, where an estimator divides by 0.
+fn check_views(grid: &Grid) -> Result<()> {
+    if !grid.mus.contains(&0.0) {
+        return Ok(());
+    }
+    let cure = "add min=1e-4 to the axis, or choose texel centres";
+    Err(Error::bad_input("axis of n.v", "n.v > 0 for an estimator", "n.v = 0", cure))
+}
+
+fn check_part(lut: &Lut, grid: &Grid, accuracy: Accuracy, precision: Precision) -> Result<()> {
     let integrand = lut.integrand();
     match (accuracy, precision) {
         (Accuracy::Rounded | Accuracy::Within(_), Precision::F64) => {
             let cure = "choose another, or values that are not certified";
             Err(Error::bad_input("precision", "one that files have, to be certified", "f64", cure))
         }
-        (Accuracy::Rounded, Precision::F32) => {
-            let got = "f32 rounded correctly";
-            let cure = "certify f32 within a tolerance";
+        (Accuracy::Rounded, precision) if !precision.is_rounded_once() => {
+            let got = format!("{precision} rounded correctly");
+            let cure = "certify it within a tolerance";
             Err(Error::bad_input(
                 "accuracy",
                 "a storage with coarser steps, to be rounded correctly",
@@ -183,7 +244,7 @@ fn check_accuracy(lut: &Lut, grid: &Grid, accuracy: Accuracy, precision: Precisi
             ))
         }
         (Accuracy::Rounded, _) => Ok(()),
-        (Accuracy::Within(_), Precision::F16 | Precision::Unorm16 | Precision::Unorm8) => {
+        (Accuracy::Within(_), precision) if precision.is_rounded_once() => {
             let expected = format!("none where values are rounded to {precision} correctly");
             Err(Error::bad_input(
                 "tolerance",
@@ -204,6 +265,15 @@ fn check_accuracy(lut: &Lut, grid: &Grid, accuracy: Accuracy, precision: Precisi
                 "give one in that range",
             ))
         }
+        (Accuracy::Estimator(_), _) => match integrand {
+            Integrand::Specular(lobe, _) if lobe.ndf == Ndf::Ggx && !lut.needs_averages() => {
+                check_views(grid)
+            }
+            _ => {
+                let cure = "leave out the other channels, or the estimator";
+                Err(Error::bad_input("estimator", "integrals of ggx alone", lut.flags(), cure))
+            }
+        },
         (Accuracy::Rule(rule), _) if !RULES.contains(&rule) => {
             let cure = "take it as Rule::named gives it";
             Err(Error::bad_input("rule", "one with its own bounds", rule.name, cure))
@@ -228,9 +298,11 @@ impl fmt::Display for Request {
     /// The command that repeats the job.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Layout { x, y, slices, .. } = &self.layout;
-        write!(f, "splitsum bake --lut {} {}", self.lut.name(), self.lut.flags())?;
+        let main = self.packing.main();
+        let family = if self.packing.is_picked() { "dfg" } else { main.name() };
+        write!(f, "splitsum bake --lut {family} {}", self.packing.flags())?;
         let spec = slices.as_ref().and_then(Slices::spec);
-        match (slices, spec, self.lut.f0()) {
+        match (slices, spec, main.f0()) {
             (Some(slices), None, _) => {
                 let values: Vec<String> =
                     slices.values().iter().map(|&value| short(value)).collect();
@@ -253,6 +325,7 @@ impl fmt::Display for Request {
             Accuracy::Within(tolerance) => write!(f, " --tolerance {tolerance:e}"),
             Accuracy::Tolerance(tolerance) => write!(f, " --certify off --tolerance {tolerance:e}"),
             Accuracy::Rule(rule) => write!(f, " --certify off --rule {}", rule.name),
+            Accuracy::Estimator(estimator) => write!(f, " --estimator {estimator}"),
         }
     }
 }

@@ -6,7 +6,9 @@ pub mod claim;
 pub mod grid;
 pub mod packed;
 pub mod precision;
+pub mod rgbd;
 pub mod slices;
+pub mod srgb;
 
 use crate::error::{Error, Result};
 use axis::Axis;
@@ -16,12 +18,19 @@ use precision::Precision;
 use slices::Slices;
 
 /// A channel of a table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
-    /// Its short name: `A`, `B`, `E`.
-    pub name: &'static str,
+    /// Its short name: `A`, `B`, `E`, `E_burley - 0.5`.
+    pub name: String,
     /// Its meaning.
-    pub meaning: &'static str,
+    pub meaning: String,
+    /// The name of what is scaled and shifted: the channel is `scale` times it plus `offset`; none
+    /// where it is a constant.
+    pub base: Option<String>,
+    /// The factor.
+    pub scale: f64,
+    /// What is added.
+    pub offset: f64,
 }
 
 /// The axes and channels of a table.
@@ -60,16 +69,36 @@ pub struct Provenance {
     pub roughness: &'static str,
 }
 
-/// The numbers of a table as they are stored, with their layout, their origin and a claim for each
-/// slice. Only a bake makes one, so that no claim can stand beside other numbers than its own.
+/// The origin and the claim of the channels that are integrated together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// The places of these channels in a texel.
+    pub channels: Vec<usize>,
+    /// The origin of their numbers.
+    pub provenance: Provenance,
+    /// How far they are from the truth.
+    pub claim: Claim,
+}
+
+/// The numbers of a table as they are stored, with their layout, and the parts of each slice with
+/// their origins and claims. Only a bake makes one, so that no claim can stand beside other numbers
+/// than its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     layout: Layout,
     /// Slice by slice, row by row, the channels of a texel side by side.
     values: Packed,
-    provenance: Vec<Provenance>,
-    claims: Vec<Claim>,
+    /// Slice by slice; each has at least one.
+    parts: Vec<Vec<Part>>,
     command: String,
+}
+
+impl Channel {
+    /// A channel with this name and meaning.
+    pub fn new(name: impl Into<String>, meaning: impl Into<String>) -> Self {
+        let (name, meaning) = (name.into(), meaning.into());
+        Channel { base: Some(name.clone()), name, meaning, scale: 1.0, offset: 0.0 }
+    }
 }
 
 impl Layout {
@@ -85,22 +114,21 @@ impl Layout {
 }
 
 impl Table {
-    /// The table of these values; `provenance` and `claims` have one entry for each slice.
+    /// The table of these values; `parts` has one entry for each slice.
     pub(crate) fn new(
         layout: Layout,
         values: Packed,
-        provenance: Vec<Provenance>,
-        claims: Vec<Claim>,
+        parts: Vec<Vec<Part>>,
         command: String,
     ) -> Result<Self> {
         let slices = layout.slice_count();
         let whole = values.len() == slices * layout.values_of_slice();
-        if !whole || provenance.len() != slices || claims.len() != slices {
+        if !whole || parts.len() != slices || parts.iter().any(Vec::is_empty) {
             return Err(Error::Internal(
                 "a table whose values and claims do not fit its layout".into(),
             ));
         }
-        Ok(Table { layout, values, provenance, claims, command })
+        Ok(Table { layout, values, parts, command })
     }
 
     /// Axes, slices and channels.
@@ -128,14 +156,15 @@ impl Table {
         self.values.precision()
     }
 
-    /// The origin of a slice's numbers.
-    pub fn provenance(&self, slice: usize) -> &Provenance {
-        &self.provenance[slice]
+    /// The parts of a slice, the main one first: most tables have no other. Channels that are the
+    /// same for every lobe, such as a constant, are in none.
+    pub fn parts(&self, slice: usize) -> &[Part] {
+        &self.parts[slice]
     }
 
-    /// How far a slice's numbers are from the truth.
+    /// How far the numbers of a slice's main part are from the truth.
     pub fn claim(&self, slice: usize) -> &Claim {
-        &self.claims[slice]
+        &self.parts[slice][0].claim
     }
 
     /// The command that repeats the bake.

@@ -22,6 +22,10 @@ pub struct Ior(f64);
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct F0(f64);
 
+/// The largest α of a texel of an unclamped axis (roughness 1.06): models and the bounds of rules
+/// were searched up to there. Half a texel beyond roughness 1, as in Godot's table, is α = 1.0078.
+pub const LARGEST_ALPHA: f64 = 1.125;
+
 /// α below this and above 0 is refused: α² must stay a normal number in f32. It is r = 5e-10.
 pub const SMALLEST_ALPHA: f64 = 2.5e-19;
 
@@ -70,6 +74,22 @@ unit!(Alpha, "alpha", "0, or 2.5e-19 to 1", |v| v == 0.0 || (SMALLEST_ALPHA..=1.
 unit!(Cosine, "cosine", "0, or 1e-30 to 1", |v| v == 0.0 || (SMALLEST_COSINE..=1.0).contains(&v));
 unit!(Ior, "index of refraction", "a finite number of at least 1", |v| v >= 1.0 && v.is_finite());
 unit!(F0, "F0", "0 to 1", |v| (0.0..=1.0).contains(&v));
+
+impl PerceptualRoughness {
+    /// The roughness of a texel, which may lie a little beyond 1.
+    pub fn of_texel(value: f64) -> Result<Self> {
+        let beyond = value > 1.0 && alpha_of(value) <= LARGEST_ALPHA;
+        if beyond { Ok(PerceptualRoughness(value)) } else { PerceptualRoughness::new(value) }
+    }
+}
+
+impl Alpha {
+    /// The α of a texel, which may lie a little beyond 1.
+    pub fn of_texel(value: f64) -> Result<Self> {
+        let beyond = value > 1.0 && value <= LARGEST_ALPHA;
+        if beyond { Ok(Alpha(value)) } else { Alpha::new(value) }
+    }
+}
 
 /// α = r² (Burley 2012, "Physically Based Shading at Disney").
 pub fn alpha_of(roughness: f64) -> f64 {

@@ -98,6 +98,8 @@ fn words_read_back_to_the_same_axis() {
         "nov,linear,centres",
         "roughness,sqrt,edges,flip",
         "alpha,sqrt-complement,offset=-0.25,min=0.001",
+        "roughness,linear,offset=1.5,flip,unclamped",
+        "nov,sqrt-complement,edges,min=0.0001,max=0.9999",
     ] {
         let spec: AxisSpec = words.parse().unwrap();
         assert_eq!(spec.to_string(), words);
@@ -117,6 +119,22 @@ fn a_texel_is_clamped_where_the_min_raises_it_and_not_where_it_is_the_min() {
 }
 
 #[test]
+fn a_max_lowers_texels_and_an_unclamped_axis_keeps_them() {
+    // EEVEE's n·v, and Godot's roughness, whose row 0 is half a texel beyond 1.
+    let view = axis("nov,sqrt-complement,edges,min=1e-4,max=0.9999", 64);
+    assert_eq!((view.value(0), view.value(63), view.clamped()), (0.9999, 1e-4, 2));
+    let rough = axis("roughness,offset=1.5,flip,unclamped", 128);
+    assert_eq!((rough.value(0), rough.value(127)), (128.5 / 128.0, 1.5 / 128.0));
+    assert_eq!(axis("roughness,offset=1.5,flip", 128).value(0), 1.0);
+    // To 1.06 and no farther, as n·v not beyond 1 at all.
+    let beyond = |words: &str, size| Axis::new(words.parse().unwrap(), size);
+    assert!(beyond("roughness,offset=1.5,unclamped", 9).is_ok());
+    assert!(beyond("roughness,offset=1.5,unclamped", 8).is_err());
+    assert!(beyond("nov,offset=1.5,unclamped", 64).is_err());
+    assert!(beyond("nov,edges,min=0.5,max=0.4", 4).is_err());
+}
+
+#[test]
 fn wrong_words_sizes_and_values_are_refused() {
     for words in [
         "",
@@ -128,10 +146,23 @@ fn wrong_words_sizes_and_values_are_refused() {
         "nov,sqrt,linear",
         "nov,edges,centres",
         "nov,min=0.1,min=0.2",
+        "nov,max=0.1,max=0.2",
+        "nov,unclamped,unclamped",
+        "nov,unclamped=1",
     ] {
         assert!(words.parse::<AxisSpec>().is_err(), "{words:?} was taken");
     }
-    for words in ["offset=nan", "offset=1e9", "offset=-2.1", "min=nan", "min=-1", "min=2"] {
+    for words in [
+        "offset=nan",
+        "offset=1e9",
+        "offset=-2.1",
+        "min=nan",
+        "min=-1",
+        "min=2",
+        "max=nan",
+        "max=0",
+        "max=-1",
+    ] {
         let spec: AxisSpec = format!("nov,{words}").parse().unwrap();
         let error = Axis::new(spec, 4).unwrap_err().to_string();
         let name = words.split('=').next().unwrap();

@@ -24,7 +24,7 @@ fn family(channel: &str, f0: f64) -> (Lut, usize) {
     };
     let energy =
         Energy::new(ggx(Masking::HeightCorrelated), F0::new(f0).unwrap(), channels).unwrap();
-    assert_eq!(channels.list()[place].name, channel);
+    assert_eq!(channels.list()[place].0, channel);
     (Lut::Energy(energy), place)
 }
 

@@ -49,7 +49,7 @@ fn auto_takes_a_device_when_it_saves_more_than_starting_it_costs() {
         ("bake --size 8 --model beckmann -o a.exr", "and starting one takes 30 ms"),
         (
             "bake --precision f32 --model beckmann -o a.exr",
-            "of which a device could decide no value",
+            "one whose values are rounded once, which a device can decide, got f32",
         ),
         ("bake --lut diffuse -o a.exr", "closed forms"),
     ] {

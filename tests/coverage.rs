@@ -33,8 +33,8 @@ fn share(lobe: Microfacet) -> f64 {
 }
 
 /// Points (n·v, α) of which three eighths are spread evenly over n·v and perceptual roughness, as a
-/// table's are, and the others crowd at the edges: n·v down to 1e-12 from 0 and 1, roughness down
-/// to 1e-9 and up to 1.
+/// table's are, up to the largest of an unclamped axis, and the others crowd at the edges: n·v down
+/// to 1e-12 from 0 and 1, roughness down to 1e-9 and up to 1.
 fn points(lobe: Microfacet, count: usize) -> Vec<(f64, f64)> {
     let mut random = Random(20261123);
     let edge = |u: f64, decades: f64| 10f64.powf(-decades * u);
@@ -42,7 +42,7 @@ fn points(lobe: Microfacet, count: usize) -> Vec<(f64, f64)> {
         .map(|i| {
             let (u, v) = (random.next(), random.next());
             let (mu, r) = match i % 8 {
-                0..3 => (u, v),
+                0..3 => (u, v * lobe.ndf.most_alpha().sqrt()),
                 3 => (edge(u, 12.0), v),
                 4 => (u, edge(v, 9.0)),
                 5 => (1.0 - edge(u, 12.0), v),

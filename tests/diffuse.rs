@@ -39,6 +39,8 @@ fn lobe(model: Diffuse, x: f64, mu: f64, phi: f64, r: f64) -> f64 {
             let (a, b) = (1.0 - 0.5 * s2 / (s2 + 0.33), 0.45 * s2 / (s2 + 0.09));
             a + b * s.max(0.0) / x.max(mu)
         }
+        // lerp(1, 0.5, alpha) of HDRP's BSDF.hlsl.
+        Diffuse::FabricLambert => (1.0 - r * r) + 0.5 * r * r,
         Diffuse::Eon => {
             let t = if s > 0.0 { x.max(mu) } else { 1.0 };
             (1.0 + r * s / t) / (1.0 + (0.5 - 2.0 / (3.0 * PI)) * r)

@@ -11,9 +11,10 @@ use splitsum::bake;
 use splitsum::brdf::{Fresnel, Masking};
 use splitsum::error::Result;
 use splitsum::format::metadata::metadata;
-use splitsum::format::{Format, encode};
+use splitsum::format::texels::Texels;
+use splitsum::format::{Encoding, Format, encode};
 use splitsum::lut::sheet::Sheet;
-use splitsum::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
+use splitsum::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut, Packing};
 use splitsum::numeric::half;
 use splitsum::request::{Accuracy, Request};
 use splitsum::table::Table;
@@ -36,6 +37,11 @@ fn table(channels: DfgChannels, precision: Precision) -> Table {
 /// A table as the bytes of a file with this extension.
 fn encoded(table: &Table, extension: &str) -> Result<Vec<u8>> {
     encode(table, Format::named(extension)?)
+}
+
+/// The texels of a table in a file with this extension.
+fn texels<'a>(table: &'a Table, extension: &str) -> Texels<'a> {
+    Texels::new(table, Encoding::of(table, Format::named(extension).unwrap()).unwrap())
 }
 
 /// Size, (name, values) of each channel, and the metadata of an EXR file.
@@ -123,7 +129,7 @@ fn metadata_names_every_convention() {
 fn a_table_that_is_not_certified_says_so_and_what_is_known_instead() {
     let lut = ab(ggx(Masking::HeightCorrelated));
     let axes = table(DfgChannels::All, Precision::F16);
-    let uncertified = Accuracy::uncertified(&lut, Precision::F16);
+    let uncertified = Accuracy::uncertified(&lut.into(), Precision::F16);
     let request = Request::new(lut, *axes.x(), *axes.y(), uncertified, Precision::F16).unwrap();
     let table = bake(&request, &Backend::cpu()).unwrap().table;
     let (.., metadata) = read_exr(&encoded(&table, "exr").unwrap());
@@ -147,7 +153,7 @@ fn metadata_tell_what_rounding_may_cost() {
         let table = table(DfgChannels::All, precision);
         assert_eq!(table.precision(), precision);
         let metadata: serde_json::Value =
-            serde_json::from_str(&metadata(&table, 0, &["R", "G", "B"]).unwrap()).unwrap();
+            serde_json::from_str(&metadata(&texels(&table, format), 0).unwrap()).unwrap();
         assert_eq!(metadata["rounding_error"].as_f64().unwrap(), half_step, "{precision:?}");
         assert!(encoded(&table, format).is_ok());
     }
@@ -220,10 +226,12 @@ fn several_f0_are_layers_of_one_exr() {
 
 /// These values as a table of one channel stores them.
 fn stored(precision: Precision, values: &[f64]) -> Result<Packed> {
-    let (lut, grid) = (dfg(DfgChannels::E), Grid::of(vec![0.5; values.len()], vec![0.25]));
+    let packing = Packing::from(dfg(DfgChannels::E));
+    let grid = Grid::of(vec![0.5; values.len()], vec![0.25]);
     let mut packed = Packed::zeros(precision, values.len())?;
-    let mut sheet = Sheet::new(&lut, &grid, precision, packed.bytes_mut());
-    sheet.put(0, &values.iter().map(|&value| precision.stored(value)).collect::<Vec<_>>());
+    let mut sheet = Sheet::new(&packing, &grid, precision, packed.bytes_mut());
+    let part = &packing.parts()[0];
+    sheet.put(part, 0, &values.iter().map(|&value| precision.stored(value)).collect::<Vec<_>>());
     sheet.finish()?;
     Ok(packed)
 }

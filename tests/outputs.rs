@@ -49,7 +49,7 @@ fn a_configuration_is_no_output() {
     for output in ["luts.toml", "./luts.toml", "in/../luts.toml"] {
         configure(&folder, "luts.toml", &["a.exr", output]);
         let said = [
-            "luts.toml, table 2: expected an output of its own",
+            "luts.toml, table 2: expected a file of its own",
             "which is the configuration",
             "rename",
         ];
@@ -349,7 +349,7 @@ fn messages_stay_short() {
 fn files_are_compared_in_folders_that_are_yet_to_be_made() {
     let folder = tempdir().unwrap();
     configure(&folder, "c.toml", &["out/dfg.exr", "out/../out/dfg.exr"]);
-    refused(&folder, "bake --config c.toml", 4, &["an output of its own"]);
+    refused(&folder, "bake --config c.toml", 4, &["a file of its own"]);
     refused(&folder, "bake --size 2 -MF out/../out/dfg.exr", 2, &["a file of its own"]);
     assert!(!folder.path().join("out").exists());
 }

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::missing;
+use common::{VULKAN, missing};
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -26,6 +26,7 @@ fn main() {
     trials.push(match tools && root() {
         true => Trial::test(name, refused_threads),
         false => missing(
+            VULKAN,
             name.into(),
             "the test is not run by root, or there is no setpriv or no prlimit".into(),
         ),

@@ -79,7 +79,7 @@ fn a_slice_has_a_claim_of_its_own() {
     let table = splitsum::bake(&request, &Backend::cpu()).unwrap().table;
     assert_eq!(table.layout().slices.as_ref().unwrap().parameter(), Parameter::F0);
     for (slice, f0) in [0.02, 0.5].into_iter().enumerate() {
-        assert_eq!(table.provenance(slice).f0, Some(f0));
+        assert_eq!(table.parts(slice)[0].provenance.f0, Some(f0));
         let Claim::Certificate(certificate) = table.claim(slice) else { panic!("no certificate") };
         let hash = blake3::hash(table.bytes(slice)).to_string();
         assert_eq!(certificate.blake3, hash);

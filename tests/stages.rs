@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{Integrator, ab, certify, certify_by, errors_at, field, ggx};
+use common::{Integrator, ab, certify, certify_by, errors_at, field, ggx, part};
 use splitsum::backend::cpu::{self, Baker};
 use splitsum::brdf::{Masking, Microfacet, Ndf};
 use splitsum::certify::decision::Task;
@@ -14,7 +14,7 @@ use splitsum::error::ExitCode;
 use splitsum::integrate::ScaleBias;
 use splitsum::integrate::rule::{CHARLIE_LIMIT, Rule};
 use splitsum::integrate::rules::{D10240, REFERENCE};
-use splitsum::lut::{Energy, EnergyChannels, Lut};
+use splitsum::lut::{Energy, EnergyChannels, Lut, Part};
 use splitsum::table::axis::Axis;
 use splitsum::table::grid::Grid;
 use splitsum::table::precision::Precision;
@@ -26,7 +26,7 @@ fn grid(columns: usize, rows: usize) -> Grid {
     Grid::new(&axis("nov", columns), &axis("roughness", rows)).unwrap()
 }
 
-fn task<'a>(lut: &'a Lut, grid: &'a Grid, precision: Precision) -> Task<'a> {
+fn task<'a>(lut: &'a Part, grid: &'a Grid, precision: Precision) -> Task<'a> {
     Task { lut, grid, precision, tolerance: precision.default_tolerance() }
 }
 
@@ -51,7 +51,7 @@ fn beside_a_boundary(rule: &Rule, distance: f64) -> f64 {
 
 #[test]
 fn a_stage_decides_nothing_nearer_than_its_error_and_twice_the_next_ones() {
-    let lut = ab(BECKMANN);
+    let lut = part(BECKMANN);
     let some = Grid::of(vec![0.6], vec![0.25]);
     let rules = rules(&task(&lut, &some, Precision::F16));
     let value = Integrator::new(rules[0]).integrate(BECKMANN, 0.6, 0.25);
@@ -69,7 +69,7 @@ fn a_stage_decides_nothing_nearer_than_its_error_and_twice_the_next_ones() {
 #[test]
 fn a_rule_that_keeps_less_than_it_promises_is_found_out_by_the_next() {
     let lobe = ggx(Masking::HeightCorrelated);
-    let (lut, grid) = (ab(lobe), grid(24, 24));
+    let (lut, grid) = (part(lobe), grid(24, 24));
     let task = task(&lut, &grid, Precision::F16);
     let coarse = Rule::named("h56").unwrap();
     let through = |first: Rule| certify_by(&task, &Stages::by(&task, &[first, REFERENCE]), None);
@@ -79,7 +79,7 @@ fn a_rule_that_keeps_less_than_it_promises_is_found_out_by_the_next() {
     assert_eq!(error.exit_code(), ExitCode::CheckFailed);
     assert!(error.to_string().contains("rule h56 beside reference"), "{error}");
     // Only the tests of what guards bounds may have such a rule: no table is baked by it.
-    let request = Request::with_default_axes(lut, (4, 4), Precision::F16).unwrap();
+    let request = Request::with_default_axes(ab(lobe), (4, 4), Precision::F16).unwrap();
     let promised = request.stored(Accuracy::Rule(coarse.promising(1e-6)), Precision::F16);
     assert!(promised.unwrap_err().to_string().contains("its own bounds"));
     assert!(request.stored(Accuracy::Rule(coarse), Precision::F16).is_ok());
@@ -88,7 +88,7 @@ fn a_rule_that_keeps_less_than_it_promises_is_found_out_by_the_next() {
 #[test]
 fn the_report_of_a_stage_tells_the_widest_bound_on_the_grid() {
     let lobe = Microfacet { ndf: Ndf::Charlie, masking: Masking::Neubelt };
-    let (lut, sheen) = (ab(lobe), |alphas| Grid::of(vec![0.5], alphas));
+    let (lut, sheen) = (part(lobe), |alphas| Grid::of(vec![0.5], alphas));
     let stage = |grid: &Grid, rule| {
         let task = task(&lut, grid, Precision::F16);
         certify_by(&task, &Stages::by(&task, &[rule, REFERENCE]), None).unwrap().stages
@@ -106,7 +106,7 @@ fn the_report_of_a_stage_tells_the_widest_bound_on_the_grid() {
 fn a_device_with_one_value_below_every_albedo_is_found_out() {
     // 64 texels in turn: all but one of them are in no sample.
     let lobe = Microfacet { ndf: Ndf::Beckmann, masking: Masking::Separable };
-    let (lut, grid, rule) = (ab(lobe), grid(16, 16), Rule::named("h640").unwrap());
+    let (lut, grid, rule) = (part(lobe), grid(16, 16), Rule::named("h640").unwrap());
     let points = cpu::bake(lobe, &grid, &rule, &|_| ()).scale_bias();
     for texel in 64..128 {
         for channel in 0..2 {
@@ -123,7 +123,7 @@ fn a_device_with_one_value_below_every_albedo_is_found_out() {
 #[test]
 fn as_many_f32_values_as_the_limit_says_are_rounded_correctly() {
     let lobe = ggx(Masking::HeightCorrelated);
-    let lut = ab(lobe);
+    let lut = part(lobe);
     let grid = grid(64, LARGEST_F32 / 128);
     let certified = certify(&task(&lut, &grid, Precision::F32), None).unwrap();
     assert_eq!((certified.values.len(), certified.certificate.undecided), (LARGEST_F32, 0));
@@ -171,7 +171,7 @@ fn charlies_bias_is_no_better_known_than_its_scale_where_its_ring_is_at_the_hori
 #[test]
 fn a_certificate_counts_the_errors_of_averages_and_of_channels() {
     let energy = |lobe, channels| {
-        Lut::Energy(Energy::new(lobe, F0::new(0.9999).unwrap(), channels).unwrap())
+        Part::from(Lut::Energy(Energy::new(lobe, F0::new(0.9999).unwrap(), channels).unwrap()))
     };
     let smith = ggx(Masking::HeightCorrelated);
     let lut = energy(smith, EnergyChannels::Split);

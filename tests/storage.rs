@@ -150,9 +150,14 @@ fn split(nov: &str, precision: Precision) -> Table {
 
 fn bake(lut: Lut, x: &str, y: &str, precision: Precision) -> Table {
     let axis = |words: &str| splitsum::table::axis::Axis::new(words.parse().unwrap(), 1).unwrap();
-    let request =
-        Request::new(lut, axis(x), axis(y), Accuracy::by_default(&lut, precision), precision)
-            .unwrap();
+    let request = Request::new(
+        lut,
+        axis(x),
+        axis(y),
+        Accuracy::by_default(&lut.into(), precision),
+        precision,
+    )
+    .unwrap();
     splitsum::bake(&request, &Backend::cpu()).unwrap().table
 }
 
@@ -206,9 +211,14 @@ fn a_table_in_bands_has_the_values_of_its_rows() {
         |words: &str, size| splitsum::table::axis::Axis::new(words.parse().unwrap(), size).unwrap();
     let (nov, roughness) = (axis("nov", 2000), axis("roughness", 1100));
     let bake = |x, y| {
-        let request =
-            Request::new(lut, x, y, Accuracy::by_default(&lut, Precision::F16), Precision::F16)
-                .unwrap();
+        let request = Request::new(
+            lut,
+            x,
+            y,
+            Accuracy::by_default(&lut.into(), Precision::F16),
+            Precision::F16,
+        )
+        .unwrap();
         splitsum::bake(&request, &Backend::cpu()).unwrap()
     };
     let (whole, transposed) = (bake(nov, roughness).table, bake(roughness, nov));

@@ -12,7 +12,7 @@ use crate::integrate::rule::{Method, Rule};
 use crate::integrate::{Field, Integrals, Integrand, mirror};
 use crate::numeric::lanes::{self, F64x8, Real, Vector, vectorised};
 use crate::table::grid::Grid;
-use crate::units::roughness_of;
+use crate::units::{LARGEST_ALPHA, roughness_of};
 use rayon::prelude::*;
 use std::array::from_fn;
 use std::sync::Arc;
@@ -258,7 +258,7 @@ impl<const N: usize, B: Basis<N>> Work for Interpolated<N, B> {
 }
 
 fn in_domain(mu: f64, alpha: f64) -> bool {
-    (0.0..=1.0).contains(&mu) && (0.0..=1.0).contains(&alpha)
+    (0.0..=1.0).contains(&mu) && (0.0..=LARGEST_ALPHA).contains(&alpha)
 }
 
 /// Writes the integrals of as many points as there are lanes, or fewer, point by point.

@@ -4,15 +4,18 @@
 use crate::backend::cpu::Baker;
 use crate::backend::device::DeviceBake;
 use crate::backend::{Gpu, Progress, bake};
+use crate::brdf::fresnel::with_basis;
 use crate::certify::deviation::{self, Deviation};
 use crate::error::{Error, Result};
 use crate::integrate::average::{average_error, average_nodes, averages};
 use crate::integrate::errors::f32_arithmetic;
+use crate::integrate::hammersley::{Point, estimate};
 use crate::integrate::rule::{Method, Rule};
 use crate::integrate::{Field, Integrand, scale};
 use crate::numeric::ball::Ball;
 use crate::report::Seconds;
 use crate::table::grid::Grid;
+use rayon::prelude::*;
 use std::time::Instant;
 
 /// The rule and the device, and the findings of the checks so far.
@@ -115,4 +118,26 @@ pub(super) fn on_device(
         }
         _ => Err(Error::Internal(format!("rule {} on a device", rule.name))),
     }
+}
+
+/// The integrals of a specular lobe over a grid by an estimator; zeros of what has none.
+pub(super) fn by_estimator(
+    integrand: Integrand,
+    grid: &Grid,
+    points: &[Point],
+    progress: Progress,
+) -> Field {
+    let (count, width) = (integrand.count(), grid.mus.len());
+    let mut field = Field::zeros(count, grid.len());
+    let Integrand::Specular(lobe, fresnel) = integrand else { return field };
+    let rows = field.values_mut().par_chunks_mut(count * width).zip(&grid.alphas);
+    rows.for_each(|(integrals, &alpha)| {
+        for (integrals, &mu) in integrals.chunks_exact_mut(count).zip(&grid.mus) {
+            with_basis!(fresnel, basis => {
+                integrals.copy_from_slice(&estimate(lobe, basis, (mu, alpha), points));
+            });
+        }
+        progress(width);
+    });
+    field
 }

@@ -8,20 +8,39 @@ use crate::error::{Complaint, Error, Result};
 use crate::integrate::Integrand;
 use crate::integrate::average::average_nodes;
 use crate::integrate::rule::{Method, Rule};
+use crate::lut::Part;
 use crate::request::{Accuracy, Request};
+use crate::table::Channel;
 use std::fmt;
 
 /// A plan for a request.
 #[derive(Clone, Debug)]
 pub struct Plan<'a> {
     pub(super) request: &'a Request,
-    /// The rules of the CPU: the stages of a certification, or the one rule of a table that is not
-    /// certified.
-    pub(super) rules: Vec<Rule>,
-    /// The device and its rule; none where the CPU does it all.
-    pub(super) device: Option<(&'a Gpu, Rule)>,
+    /// The parts, in the order of the packing's.
+    pub(super) parts: Vec<PartPlan>,
+    /// The device; none where the CPU does it all.
+    pub(super) device: Option<&'a Gpu>,
     /// The reason for the device or for the CPU, where there was a choice.
     pub(super) reason: Option<String>,
+}
+
+/// The plan for the channels of one table.
+#[derive(Clone, Debug)]
+pub(super) struct PartPlan {
+    pub part: Part,
+    /// The rules of the CPU: the stages of a certification, or the one rule of a table that is not
+    /// certified.
+    pub rules: Vec<Rule>,
+    /// The rule of a device; none where a device cannot do the part.
+    pub device_rule: Option<Rule>,
+}
+
+impl PartPlan {
+    /// The one rule of a table that is not certified.
+    pub fn rule(&self, on_device: bool) -> Option<Rule> {
+        self.device_rule.filter(|_| on_device).or(self.rules.first().copied())
+    }
 }
 
 /// The tolerance of a device's stage in certification: half of it is f32's, and h640 keeps the rest
@@ -42,30 +61,37 @@ const WORKING_BYTES: usize = 128;
 impl<'a> Plan<'a> {
     /// The plan for a request on a backend; an error where the backend is ruled out.
     pub fn new(request: &'a Request, backend: &'a Backend) -> Result<Self> {
-        let (device_rule, obstacle) = match device_rule(request) {
-            Ok(rule) => (Some(rule), None),
-            Err(obstacle) => (None, Some(obstacle)),
-        };
-        let rules = rules(request)?;
-        let saved = seconds_saved(request, &rules);
+        let (mut parts, mut obstacles, mut saved) = (Vec::new(), Vec::new(), 0.0);
+        for part in request.packing().parts() {
+            let rules = rules(request, &part)?;
+            let device_rule = match device_rule(request, &part) {
+                Ok(rule) => {
+                    saved += seconds_saved(request, &part, &rules);
+                    Some(rule)
+                }
+                Err(obstacle) => {
+                    obstacles.push(obstacle);
+                    None
+                }
+            };
+            parts.push(PartPlan { part, rules, device_rule });
+        }
+        // The CPU does what a device cannot, as long as something is left for the device.
+        let obstacle = obstacles.into_iter().next();
+        let obstacle = obstacle.filter(|_| parts.iter().all(|part| part.device_rule.is_none()));
         let Chosen { gpu, reason } = backend.choose(obstacle, saved)?;
-        Ok(Plan { request, rules, device: gpu.zip(device_rule), reason })
+        Ok(Plan { request, parts, device: gpu, reason })
     }
 
-    /// The rules of the CPU: the stages of a certification, or the one rule of a table that is not
-    /// certified.
+    /// The rules of the CPU for the main part: the stages of a certification, or the one rule of a
+    /// table that is not certified.
     pub fn rules(&self) -> &[Rule] {
-        &self.rules
+        &self.parts[0].rules
     }
 
-    /// The one rule of a table that is not certified.
-    pub(super) fn rule(&self) -> Option<Rule> {
-        self.device.map(|(_, rule)| rule).or(self.rules.first().copied())
-    }
-
-    /// The device and its rule; none where the CPU does it all.
+    /// The device and its rule for the main part; none where the CPU does it all.
     pub fn device(&self) -> Option<(&Gpu, Rule)> {
-        self.device
+        self.device.zip(self.parts[0].device_rule)
     }
 
     /// The reason for the device or for the CPU, where there was a choice.
@@ -77,7 +103,10 @@ impl<'a> Plan<'a> {
     /// nearly every value needs alone, and of the decisions.
     pub fn seconds(&self) -> f64 {
         let request = self.request;
-        let slice = seconds_of_first(request, &self.rules) + DECISION * request.grid().len() as f64;
+        let of_part = |PartPlan { part, rules, .. }: &PartPlan| {
+            seconds_of_first(request, part, rules) + DECISION * request.grid().len() as f64
+        };
+        let slice = self.parts.iter().map(of_part).sum::<f64>();
         request.layout().slice_count() as f64 * slice / rayon::current_num_threads() as f64
     }
 }
@@ -88,13 +117,12 @@ pub fn working_bytes(request: &Request) -> usize {
 }
 
 /// The rules of the CPU.
-fn rules(request: &Request) -> Result<Vec<Rule>> {
-    let (integrand, grid) = (request.lut().integrand(), request.grid());
+fn rules(request: &Request, part: &Part) -> Result<Vec<Rule>> {
+    let (integrand, grid) = (part.integrand(), request.grid());
     match request.accuracy() {
-        Accuracy::Rounded | Accuracy::Within(_) => {
-            Ok(stages::rules(&task(request, request.lut(), grid)))
-        }
+        Accuracy::Rounded | Accuracy::Within(_) => Ok(stages::rules(&task(request, part, grid))),
         Accuracy::Rule(rule) => Ok(vec![rule]),
+        Accuracy::Estimator(_) => Ok(Vec::new()),
         Accuracy::Tolerance(tolerance) => {
             let rule = Rule::for_cpu(integrand, tolerance, grid.len());
             rule.map(|rule| vec![rule])
@@ -104,8 +132,8 @@ fn rules(request: &Request) -> Result<Vec<Rule>> {
 }
 
 /// The rule by which a device can do the job, or the obstacle.
-fn device_rule(request: &Request) -> std::result::Result<Rule, Complaint> {
-    let integrand = request.lut().integrand();
+fn device_rule(request: &Request, part: &Part) -> std::result::Result<Rule, Complaint> {
+    let integrand = part.integrand();
     let on_cpu = |what: &str, expected: &str, got: &str| {
         Err(Complaint::new(what, expected, got, "use --backend cpu"))
     };
@@ -119,8 +147,8 @@ fn device_rule(request: &Request) -> std::result::Result<Rule, Complaint> {
     match request.accuracy() {
         Accuracy::Within(_) => on_cpu(
             "precision",
-            "one with coarser steps than the f32 in which a device computes",
-            "certified f32, of which a device could decide no value",
+            "one whose values are rounded once, which a device can decide",
+            &format!("{}, certified within a tolerance", request.precision()),
         ),
         // No rule keeps less than the last, so that rounding must not rule it out.
         Accuracy::Rounded => {
@@ -129,6 +157,9 @@ fn device_rule(request: &Request) -> std::result::Result<Rule, Complaint> {
         }
         Accuracy::Tolerance(tolerance) => {
             Rule::for_device(integrand, tolerance).map_or_else(too_small, Ok)
+        }
+        Accuracy::Estimator(_) => {
+            on_cpu("estimator", "a rule, which a device can run", "an estimator")
         }
         Accuracy::Rule(rule) if rule.runs_on_device() => Ok(rule),
         Accuracy::Rule(rule) => {
@@ -143,7 +174,7 @@ fn too_small() -> std::result::Result<Rule, Complaint> {
 }
 
 /// The approximate CPU time that a device would save.
-fn seconds_saved(request: &Request, rules: &[Rule]) -> f64 {
+fn seconds_saved(request: &Request, part: &Part, rules: &[Rule]) -> f64 {
     let share = match (request.accuracy(), rules.first()) {
         // An interpolant checks every texel of a device.
         (
@@ -151,22 +182,21 @@ fn seconds_saved(request: &Request, rules: &[Rule]) -> f64 {
             Some(Rule { method: Method::Interpolant(_), .. }),
         ) => 0.0,
         (Accuracy::Rounded | Accuracy::Within(_), _) => LEFT_TO_DEVICE,
-        (Accuracy::Tolerance(_) | Accuracy::Rule(_), _) => 1.0,
+        (Accuracy::Tolerance(_) | Accuracy::Rule(_) | Accuracy::Estimator(_), _) => 1.0,
     };
-    let first = seconds_of_first(request, rules);
+    let first = seconds_of_first(request, part, rules);
     request.layout().slice_count() as f64 * share * first / rayon::current_num_threads() as f64
 }
 
 /// The approximate time of the first of these rules on a slice, averages included, on one thread.
-fn seconds_of_first(request: &Request, rules: &[Rule]) -> f64 {
-    let integrand = request.lut().integrand();
-    rules.first().map_or(0.0, |rule| rule.seconds(integrand, points(request)))
+fn seconds_of_first(request: &Request, part: &Part, rules: &[Rule]) -> f64 {
+    rules.first().map_or(0.0, |rule| rule.seconds(part.integrand(), points(request, part)))
 }
 
 /// Points of a slice at which a rule integrates: its texels, and the directions of its averages.
-pub(super) fn points(request: &Request) -> usize {
+pub(super) fn points(request: &Request, part: &Part) -> usize {
     let grid = request.grid();
-    let directions = if request.lut().needs_averages() { average_nodes().len() } else { 0 };
+    let directions = if part.needs_averages() { average_nodes().len() } else { 0 };
     grid.len() + grid.alphas.len() * directions
 }
 
@@ -179,12 +209,44 @@ fn in_words(bytes: usize) -> String {
     }
 }
 
+impl Plan<'_> {
+    /// The rules of a part, named for its lobe where there are several.
+    fn write_part(&self, plan: &PartPlan, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let of = match self.parts.len() {
+            1 => String::new(),
+            _ => format!("{}: ", names_of(&plan.part, &self.request.layout().channels)),
+        };
+        match self.request.accuracy() {
+            Accuracy::Rounded | Accuracy::Within(_) => {
+                let device = plan.device_rule.filter(|_| self.device.is_some());
+                let device = device.iter().map(|rule| format!("{} on the device", rule.name));
+                let on_cpu = plan.rules.iter().map(|rule| rule.name.to_owned());
+                let stages = device.chain(on_cpu).collect::<Vec<_>>().join(", then ");
+                writeln!(f, "certified {of}by {stages}: each decides what the one before leaves")
+            }
+            Accuracy::Estimator(estimator) => {
+                writeln!(f, "estimator {of}{estimator}; not certified")
+            }
+            Accuracy::Tolerance(_) | Accuracy::Rule(_) => {
+                let rule = plan.rule(self.device.is_some()).map_or("none", |rule| rule.name);
+                writeln!(f, "rule      {of}{rule}; not certified")
+            }
+        }
+    }
+}
+
+/// The names of the channels that a part fills.
+pub(super) fn names_of(part: &Part, channels: &[Channel]) -> String {
+    let names = part.places().into_iter().map(|place| &*channels[place].name);
+    names.collect::<Vec<_>>().join(", ")
+}
+
 impl fmt::Display for Plan<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let request = self.request;
         let layout = request.layout();
         let channels =
-            layout.channels.iter().map(|channel| channel.name).collect::<Vec<_>>().join(", ");
+            layout.channels.iter().map(|channel| &*channel.name).collect::<Vec<_>>().join(", ");
         write!(f, "table     {} x {}", layout.x.size(), layout.y.size())?;
         if let Some(slices) = &layout.slices {
             write!(f, " x {} slices of {}", slices.count(), slices.parameter())?;
@@ -193,24 +255,12 @@ impl fmt::Display for Plan<'_> {
         match (&self.device, &self.reason) {
             (None, None) => writeln!(f, "backend   CPU, f64")?,
             (None, Some(reason)) => writeln!(f, "backend   CPU, f64; not Vulkan: {reason}")?,
-            (Some((gpu, _)), reason) => {
+            (Some(gpu), reason) => {
                 let reason = reason.as_ref().map_or(String::new(), |reason| format!("; {reason}"));
                 writeln!(f, "backend   Vulkan, f32: {}{reason}", gpu.info().name)?;
             }
         }
-        match request.accuracy() {
-            Accuracy::Rounded | Accuracy::Within(_) => {
-                let device =
-                    self.device.iter().map(|(_, rule)| format!("{} on the device", rule.name));
-                let on_cpu = self.rules.iter().map(|rule| rule.name.to_owned());
-                let stages = device.chain(on_cpu).collect::<Vec<_>>().join(", then ");
-                writeln!(f, "certified by {stages}: each decides what the one before leaves")?;
-            }
-            Accuracy::Tolerance(_) | Accuracy::Rule(_) => {
-                let rule = self.rule().map_or("none", |rule| rule.name);
-                writeln!(f, "rule      {rule}; not certified")?;
-            }
-        }
+        self.parts.iter().try_for_each(|part| self.write_part(part, f))?;
         let threads = rayon::current_num_threads();
         let time = format!("{} on {threads} threads", duration(self.seconds()));
         match self.device {

@@ -18,6 +18,8 @@ pub enum Diffuse {
     OrenNayar,
     /// The single scattering of EON (Portsmouth, Kutz and Hill 2025).
     Eon,
+    /// Lambert darkened by roughness, as Unity HDRP has it for fabric.
+    FabricLambert,
 }
 
 choice!(Diffuse, "model", {
@@ -26,17 +28,19 @@ choice!(Diffuse, "model", {
     OrenNayar = "oren-nayar", "rough Lambertian facets, the qualitative model (Oren and Nayar \
                                1994)";
     Eon = "eon", "the single scattering of EON (Portsmouth, Kutz and Hill 2025)";
+    FabricLambert = "fabric-lambert", "(1 - r^2/2)/pi, of fabric in Unity HDRP";
 });
 
 impl Diffuse {
     /// The directional albedo of a white surface with the roughness `r`.
     pub fn albedo(self, mu: f64, r: f64) -> f64 {
-        debug_assert!((0.0..=1.0).contains(&mu) && (0.0..=1.0).contains(&r), "{mu}, {r}");
+        debug_assert!((0.0..=1.0).contains(&mu) && r >= 0.0, "{mu}, {r}");
         match self {
             Diffuse::Lambert => lambert_albedo(),
             Diffuse::Burley => burley_albedo(mu, r),
             Diffuse::OrenNayar => oren_nayar_albedo(mu, r),
             Diffuse::Eon => eon_albedo(mu, r),
+            Diffuse::FabricLambert => fabric_lambert_albedo(r),
         }
     }
 
@@ -47,6 +51,7 @@ impl Diffuse {
             Diffuse::Burley => "perceptual roughness r (f90 = 1/2 + 2 r cos^2 theta_d)",
             Diffuse::OrenNayar => "sigma in radians",
             Diffuse::Eon => "r of EON",
+            Diffuse::FabricLambert => "perceptual roughness r",
         }
     }
 
@@ -57,6 +62,7 @@ impl Diffuse {
             Diffuse::Burley => "f of Burley 2012, Physically Based Shading at Disney",
             Diffuse::OrenNayar => "f of Oren and Nayar 1994, the qualitative model",
             Diffuse::Eon => "f of the single scattering of EON (Portsmouth, Kutz and Hill 2025)",
+            Diffuse::FabricLambert => "f = (1 - r^2/2)/pi (Unity HDRP, FabricLambert)",
         }
     }
 }
@@ -88,6 +94,11 @@ pub fn oren_nayar_albedo(mu: f64, r: f64) -> f64 {
     let sv = ((1.0 - mu) * (1.0 + mu)).sqrt();
     let forward = mu * (1.0 + sv * (1.0 + sv)) / (3.0 * (1.0 + sv));
     a + 2.0 * b * sv / PI * (forward + 0.5 * (arc_cosine(mu) - sv * mu))
+}
+
+/// Unity HDRP's fabric: f = (1 + (1/2 - 1) α)/π with α = r², E = 1 - r²/2.
+pub fn fabric_lambert_albedo(r: f64) -> f64 {
+    1.0 - 0.5 * r * r
 }
 
 /// The single scattering of EON, which is Fujii's Oren-Nayar (Portsmouth, Kutz and Hill 2025): what

@@ -10,6 +10,7 @@ pub mod charlie;
 use super::masking::Masking;
 use crate::choice::{Choice, choice};
 use crate::numeric::lanes::Real;
+use crate::units::LARGEST_ALPHA;
 
 /// A distribution of microfacet normals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,6 +81,15 @@ impl Ndf {
     /// The masking term of a lobe for which none is named.
     pub fn default_masking(self) -> Masking {
         self.definition().maskings[0]
+    }
+
+    /// The largest α at which it has a meaning and its rules were searched: Blinn-Phong's exponent
+    /// would be negative above 1, and Charlie's Λ was fitted below.
+    pub fn most_alpha(self) -> f64 {
+        match self {
+            Ndf::Ggx | Ndf::Beckmann | Ndf::BeckmannWalter => LARGEST_ALPHA,
+            Ndf::BlinnPhong | Ndf::Charlie => 1.0,
+        }
     }
 
     /// The unit of slopes.

@@ -2,7 +2,7 @@
 //! whether two stages agree.
 
 use crate::integrate::Field;
-use crate::lut::Lut;
+use crate::lut::Part;
 use crate::numeric::ball::Ball;
 use crate::table::grid::Grid;
 use crate::table::precision::Precision;
@@ -10,8 +10,8 @@ use crate::table::precision::Precision;
 /// A table to be certified.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
-    /// The table.
-    pub lut: &'a Lut,
+    /// The table, or the part of one.
+    pub lut: &'a Part,
     /// Its points.
     pub grid: &'a Grid,
     /// Its storage.
@@ -40,9 +40,9 @@ impl Task<'_> {
             // A division is costly, and values above 1 are few.
             let size = channel.value.abs();
             worst = worst.max(if size > 1.0 { channel.error / size } else { channel.error });
-            // No channel is negative, though an estimate of one near 0 may be.
-            let value =
-                if channel.value < 0.0 && channel.high() >= 0.0 { 0.0 } else { channel.value };
+            // An estimate near 0 may be negative where no channel is.
+            let negative = channel.value < 0.0 && channel.high() >= 0.0 && self.lut.nonnegative();
+            let value = if negative { 0.0 } else { channel.value };
             // Adding 0 makes 0 of -0.
             *stored = self.precision.stored(value) + 0.0;
         }
@@ -58,8 +58,7 @@ impl Task<'_> {
     ) -> f64 {
         let integrals: Vec<Ball> =
             integrals.iter().map(|&integral| Ball::exact(integral)).collect();
-        let values =
-            self.lut.values(mu, &integrals, averages).into_iter().take(self.lut.channels().len());
+        let values = self.lut.values(mu, &integrals, averages).into_iter().take(self.lut.count());
         values
             .map(|value| self.precision.distance_to_boundary(value.value))
             .fold(f64::INFINITY, f64::min)

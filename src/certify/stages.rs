@@ -28,8 +28,8 @@ pub fn rules(task: &Task) -> Vec<Rule> {
     let integrand = task.lut.integrand();
     let texels = task.grid.len();
     let first = match task.precision {
-        Precision::F32 => Rule::for_cpu(integrand, task.tolerance, texels),
-        _ => Rule::for_rounding(integrand, texels),
+        precision if precision.is_rounded_once() => Rule::for_rounding(integrand, texels),
+        _ => Rule::for_cpu(integrand, task.tolerance, texels),
     };
     // At a roughness where Charlie's rules are as sharp as any lobe's.
     let error = |rule: &Rule| rule.bound_at(integrand, 1.0);
@@ -54,10 +54,11 @@ impl Stages {
     pub fn by(task: &Task, rules: &[Rule]) -> Self {
         let integrand = task.lut.integrand();
         let closed = matches!(integrand, Integrand::Diffuse(_));
-        let values = task.grid.len() * task.lut.channels().len();
+        let values = task.grid.len() * task.lut.count();
         Stages {
             bakers: rules.iter().map(|rule| Baker::new(integrand, rule)).collect(),
-            rounds_correctly: task.precision != Precision::F32 || closed || values <= LARGEST_F32,
+            rounds_correctly: task.precision.is_rounded_once()
+                || task.precision == Precision::F32 && (closed || values <= LARGEST_F32),
         }
     }
 

@@ -55,7 +55,7 @@ pub fn certify_band(
     progress: Progress,
 ) -> Result<Certified> {
     let texels = task.grid.len();
-    let channels = task.lut.channels().len();
+    let channels = task.lut.count();
     let mut run = Run {
         task,
         stages,

@@ -10,6 +10,7 @@ use crate::backend::device::GpuOptions;
 use crate::bake::Plan;
 use crate::error::Result;
 use crate::format::metadata::TOOL;
+use crate::lookup::DEFAULT_PREFIX;
 use crate::report::Report;
 use serde::Serialize;
 use std::io::Write;
@@ -90,7 +91,8 @@ pub fn run(arguments: BakeArgs) -> Result<()> {
         return print_plans(&jobs, &backend);
     }
     // Last, since it makes the folder of the default output.
-    for name in jobs.iter().map(|job| &job.output).chain(&depfile) {
+    let lookups = jobs.iter().filter_map(|job| job.lookup.as_ref().map(|(name, _)| name));
+    for name in jobs.iter().map(|job| &job.output).chain(lookups).chain(&depfile) {
         output::check(name)?;
     }
     if arguments.json {
@@ -99,7 +101,12 @@ pub fn run(arguments: BakeArgs) -> Result<()> {
     let tables: Vec<Vec<Baked>> =
         jobs.iter().map(|job| bake(job, &backend, &arguments)).collect::<Result<_>>()?;
     if let Some(depfile) = depfile {
-        let outputs: Vec<&str> = jobs.iter().map(|job| job.output.as_str()).collect();
+        let files = |job: &'_ Job| {
+            let lookup = job.lookup.as_ref().map(|(name, _)| name.clone());
+            [Some(job.output.clone()), lookup].into_iter().flatten()
+        };
+        let outputs: Vec<String> = jobs.iter().flat_map(files).collect();
+        let outputs: Vec<&str> = outputs.iter().map(String::as_str).collect();
         let targets = arguments.mt.as_ref().map_or(outputs, |target| vec![target]);
         output::write(&depfile, depfile::rule(&targets, arguments.config.as_deref()).as_bytes())?;
     }
@@ -123,21 +130,29 @@ fn print_plans(jobs: &[Job], backend: &Backend) -> Result<()> {
 }
 
 fn bake(job: &Job, backend: &Backend, arguments: &BakeArgs) -> Result<Vec<Baked>> {
-    let Job { request, format, output } = job;
+    let Job { request, encoding, output, lookup } = job;
     let plan = Plan::new(request, backend)?;
     let progress = Progress::new(output, request.texels(), arguments.quiet);
     let baked = plan.bake(&|texels| progress.advance(texels))?;
     drop(progress);
-    output::write_with(output, &mut |file| format.write(&baked.table, file))?;
+    output::write_with(output, &mut |file| encoding.write(&baked.table, file))?;
+    if let Some((name, language)) = lookup {
+        let code = super::lookup::code(job, *language, &[], DEFAULT_PREFIX)?;
+        output::write(name, code.as_bytes())?;
+    }
     if !arguments.quiet && !arguments.json {
         let name = if output == "-" { "standard output" } else { output };
         for report in &baked.reports {
             let slice =
                 report.slice.as_ref().map_or(String::new(), |slice| format!(", slice {slice}"));
+            let channels = report
+                .channels
+                .as_ref()
+                .map_or(String::new(), |channels| format!(", channels {channels}"));
             let [width, height] = report.size;
             let _ = writeln!(
                 std::io::stderr(),
-                "wrote     {name}{slice}: {width} x {height}\n{report}"
+                "wrote     {name}{slice}{channels}: {width} x {height}\n{report}"
             );
         }
     }

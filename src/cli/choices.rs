@@ -3,11 +3,13 @@
 use crate::brdf::{Diffuse, Fresnel, Masking, Microfacet, Ndf};
 use crate::choice::Choice;
 use crate::error::Result;
-use crate::format::FORMATS;
+use crate::format::{FORMATS, Format};
 use crate::integrate::rules::RULES;
 use crate::lut::{DfgChannels, EnergyChannels};
+use crate::preset::presets;
 use crate::table::precision::Precision;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use std::ffi::OsStr;
 
 /// The parser of a choice.
 pub fn of<C: Choice + Send + Sync>() -> impl TypedValueParser<Value = C> {
@@ -19,8 +21,34 @@ pub fn model() -> impl TypedValueParser<Value = String> {
     PossibleValuesParser::new(Ndf::ALL.iter().map(value).chain(Diffuse::ALL.iter().map(value)))
 }
 
-/// The parser of channels: those of each Fresnel model, and those of energy.
+/// The parser of channels: a name, or a list of terms; the names are those of each Fresnel model
+/// and those of energy.
 pub fn channels() -> impl TypedValueParser<Value = String> {
+    Channels
+}
+
+/// Takes any text, since a list of terms is checked where the lobe is known, and knows the names.
+#[derive(Clone)]
+struct Channels;
+
+impl TypedValueParser for Channels {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> std::result::Result<String, clap::Error> {
+        clap::builder::StringValueParser::new().parse_ref(command, argument, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(names_of_channels().into_iter()))
+    }
+}
+
+fn names_of_channels() -> Vec<PossibleValue> {
     let of_model = |&fresnel: &Fresnel| {
         DfgChannels::served_by(fresnel).map(move |channels| (channels, fresnel))
     };
@@ -35,7 +63,7 @@ pub fn channels() -> impl TypedValueParser<Value = String> {
     let of_energy = EnergyChannels::ALL.iter().map(|channels| {
         PossibleValue::new(channels.word()).help(format!("of energy: {}", channels.about()))
     });
-    PossibleValuesParser::new(distinct(of_dfg.chain(of_energy)))
+    distinct(of_dfg.chain(of_energy))
 }
 
 /// The parser of a rule's name.
@@ -43,9 +71,17 @@ pub fn rule() -> impl TypedValueParser<Value = String> {
     PossibleValuesParser::new(RULES.iter().map(|rule| PossibleValue::new(rule.name)))
 }
 
+/// The parser of a preset's name.
+pub fn preset() -> impl TypedValueParser<Value = String> {
+    PossibleValuesParser::new(
+        presets().map(|preset| PossibleValue::new(preset.name).help(preset.about)),
+    )
+}
+
 /// The parser of a file format.
 pub fn format() -> impl TypedValueParser<Value = String> {
-    PossibleValuesParser::new(FORMATS.iter().map(|format| PossibleValue::new(format.extension())))
+    let value = |format: &Format| PossibleValue::new(format.extension()).help(format.about());
+    PossibleValuesParser::new(FORMATS.iter().map(value))
 }
 
 /// The parser of a storage: those that a format has.

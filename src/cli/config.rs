@@ -53,6 +53,9 @@ pub fn read(path: &str) -> Result<Vec<Job>> {
                 return Err(Error::bad_input(name, "an output file", got, cure));
             }
         }
+        if let Some((lookup, _)) = &mut job.lookup {
+            *lookup = folder.join(&*lookup).to_string_lossy().into_owned();
+        }
         jobs.push(job);
     }
     Ok(jobs)

@@ -2,29 +2,37 @@
 //! both.
 
 mod family;
+mod preset;
 mod values;
 
 use self::family::Family;
 use self::values::{Numbers, Size};
 use super::choices;
+use super::lookup::language_of;
 use super::output::DEFAULT_FOLDER;
 use crate::brdf::{Fresnel, Masking};
 use crate::choice::choice;
 use crate::error::{Error, Result};
-use crate::format::Format;
+use crate::format::encoding::{Notation, Supercompress};
+use crate::format::{Encoding, Format, Style};
 use crate::integrate::rule::Rule;
-use crate::lut::Lut;
+use crate::lookup::Language;
+use crate::lut::Packing;
 use crate::request::{Accuracy, DEFAULT_SIZE, Request};
 use crate::table::axis::{Axis, AxisSpec, Parameter};
 use crate::table::precision::Precision;
-use crate::table::slices::Slices;
+use crate::table::slices::{Slices, SlicesAs};
 use crate::units::{F0, Ior};
 use serde::Deserialize;
 
 /// The table; everything has a default.
-#[derive(Clone, Debug, Default, clap::Args, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct TableArgs {
+    /// The table that an engine expects, with its format and file name; flags beside it change it
+    /// ('splitsum presets' lists them)
+    #[arg(long, value_name = "NAME", value_parser = choices::preset(), hide_possible_values = true)]
+    preset: Option<String>,
     /// Family of tables [default: dfg]
     #[arg(long, value_name = "NAME", value_parser = choices::of::<Family>())]
     lut: Option<Family>,
@@ -38,8 +46,11 @@ pub struct TableArgs {
     /// Fresnel of dfg [default: schlick]
     #[arg(long, value_name = "NAME", value_parser = choices::of::<Fresnel>())]
     fresnel: Option<Fresnel>,
-    /// Channels [default: all integrals for dfg, e for sheen, split for energy]
-    #[arg(long, value_name = "NAME", value_parser = choices::channels())]
+    /// Channels: a name, or up to four terms of dfg with commas between, for example b,e,charlie:
+    /// a, b, c, e, 1-e, a_avg, b_avg, e_avg; another lobe's E, as in charlie, charlie/neubelt or
+    /// burley; nov, roughness or a number; each with *SCALE and +OFFSET or -OFFSET behind it
+    /// [default: all integrals for dfg, e for sheen, split for energy]
+    #[arg(long, value_name = "NAME|TERM[,TERM...]", value_parser = choices::channels())]
     channels: Option<String>,
     /// Reflectance at normal incidence, for the split of energy; several, with commas between, are
     /// slices, layers of an .exr [default: 0.04]
@@ -58,8 +69,9 @@ pub struct TableArgs {
     /// The axis along a row, for example nov,sqrt,edges: PARAMETER nov, roughness (perceptual),
     /// alpha or exponent (n = 10^(7p), Blinn-Phong's); then, where they differ from linear,centres:
     /// MAPPING linear, sqrt (t = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES centres, edges
-    /// (i/(N-1)) or offset=X ((i+X)/N); flip; min=X. n.v is 0 or from 1e-30 to 1, roughness 0 or
-    /// from 5e-10 to 1 [default: nov]
+    /// (i/(N-1)) or offset=X ((i+X)/N); flip; unclamped, so that nodes beyond an end stay there;
+    /// min=X; max=X. n.v is 0 or from 1e-30 to 1, roughness 0 or from 5e-10 to 1, unclamped to 1.06
+    /// [default: nov]
     #[arg(long, value_name = "AXIS")]
     x: Option<String>,
     /// The axis from row to row, in the same words [default: roughness, or nov where x is a
@@ -91,10 +103,39 @@ pub struct TableArgs {
     /// Vulkan too
     #[arg(long, value_name = "NAME", value_parser = choices::rule())]
     rule: Option<String>,
+    /// Repeat an engine's own numbers, not certified, for example hammersley,n=1024,frame=cos:
+    /// half vectors of GGX by D at Hammersley's points; frame cos as in Filament's cmgen, sin as in
+    /// three.js, Unreal and LearnOpenGL
+    #[arg(
+        long, value_name = "hammersley,n=N,frame=cos|sin",
+        conflicts_with_all = ["rule", "tolerance"]
+    )]
+    estimator: Option<String>,
     /// File format [default: by the extension of the output]
     #[arg(long, value_name = "NAME", value_parser = choices::format())]
     format: Option<String>,
-    /// File to write; - is standard output [default: out/dfg.exr, or .png for its storages]
+    /// Components of a texel, 1 to 4: those without a channel are 0, and the fourth is 1 [default:
+    /// as many as the format needs for the channels]
+    #[arg(long, value_name = "N")]
+    components: Option<usize>,
+    /// Compression of a .ktx2 file [default: none]
+    #[arg(long, value_name = "NAME", value_parser = choices::of::<Supercompress>())]
+    supercompress: Option<Supercompress>,
+    /// What slices of a .ktx2 or .dds file are [default: layers]
+    #[arg(long, value_name = "NAME", value_parser = choices::of::<SlicesAs>())]
+    slices_as: Option<SlicesAs>,
+    /// How source code has numbers [default: stored]
+    #[arg(long, value_name = "NAME", value_parser = choices::of::<Notation>())]
+    numbers: Option<Notation>,
+    /// Name of the array in source code, with which the names of its functions begin [default:
+    /// splitsum_table]
+    #[arg(long, value_name = "NAME")]
+    symbol: Option<String>,
+    /// Lookup code to write beside the table, in the language of the extension: .wgsl, .glsl,
+    /// .hlsl, .metal, .h or .rs
+    #[arg(long, value_name = "FILE")]
+    pub lookup: Option<String>,
+    /// File to write; - is standard output [default: out/dfg.exr, or by the storage or the preset]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<String>,
 }
@@ -121,26 +162,38 @@ type IsGiven = fn(&TableArgs) -> bool;
 /// The flags that a picture does not follow, since it has neither storage nor certificate, and
 /// whether each is given.
 #[cfg(feature = "compare")]
-pub const FLAGS_OF_FILES: [(&str, IsGiven); 5] = [
+pub const FLAGS_OF_FILES: [(&str, IsGiven); 12] = [
     ("precision", |table| table.precision.is_some()),
     ("certify", |table| table.certify.is_some()),
     ("tolerance", |table| table.tolerance.is_some()),
     ("rule", |table| table.rule.is_some()),
+    ("estimator", |table| table.estimator.is_some()),
     ("format", |table| table.format.is_some()),
+    ("components", |table| table.components.is_some()),
+    ("supercompress", |table| table.supercompress.is_some()),
+    ("slices-as", |table| table.slices_as.is_some()),
+    ("numbers", |table| table.numbers.is_some()),
+    ("symbol", |table| table.symbol.is_some()),
+    ("lookup", |table| table.lookup.is_some()),
 ];
 
 /// A table to bake, its format and its file.
 #[derive(Clone, Debug)]
 pub struct Job {
     pub request: Request,
-    pub format: &'static Format,
+    pub encoding: Encoding,
     /// A path as the user wrote it, or `-`.
     pub output: String,
+    /// Lookup code and its language.
+    pub lookup: Option<(String, Language)>,
 }
 
 impl TableArgs {
     /// The checked job.
     pub fn job(&self) -> Result<Job> {
+        if self.preset.is_some() {
+            return self.with_preset()?.job();
+        }
         let format = match (&self.format, self.output.as_deref()) {
             (Some(name), _) => Format::named(name)?,
             (None, None | Some("-")) => Format::of_precision(self.precision),
@@ -149,30 +202,52 @@ impl TableArgs {
         let default = || format!("{DEFAULT_FOLDER}/dfg.{}", format.extension());
         let output = self.output.clone().unwrap_or_else(default);
         let precision = format.precision(self.precision)?;
-        let request = self.request(precision, |lut| self.accuracy(lut, precision))?;
-        let layout = request.layout();
-        format.check(layout.slice_count(), layout.channels.len())?;
-        Ok(Job { request, format, output })
+        let request = self.request(precision, |packing| self.accuracy(packing, precision))?;
+        let encoding = Encoding::new(format, self.style(), request.layout(), precision)?;
+        let lookup = self.lookup.as_ref();
+        let lookup = lookup.map(|name| Ok((name.clone(), language_of(name)?))).transpose()?;
+        Ok(Job { request, encoding, output, lookup })
+    }
+
+    /// Whether no other flag than -o is given.
+    pub fn is_empty_but_for_output(&self) -> bool {
+        *self == TableArgs { output: self.output.clone(), ..TableArgs::default() }
+    }
+
+    /// What the format leaves open.
+    fn style(&self) -> Style {
+        Style {
+            components: self.components,
+            supercompress: self.supercompress.unwrap_or_default(),
+            slices: self.slices_as.unwrap_or_default(),
+            numbers: self.numbers.unwrap_or_default(),
+            symbol: self.symbol.clone(),
+        }
     }
 
     /// The checked request for a table in this storage.
     pub fn request(
         &self,
         precision: Precision,
-        accuracy: impl Fn(&Lut) -> Result<Accuracy>,
+        accuracy: impl Fn(&Packing) -> Result<Accuracy>,
     ) -> Result<Request> {
+        if self.preset.is_some() {
+            return self.with_preset()?.request(precision, accuracy);
+        }
         let (columns, rows, depth) =
             self.size.as_ref().map_or(Ok((DEFAULT_SIZE, DEFAULT_SIZE, None)), Size::parse)?;
         let (x, y) = self.axes(columns, rows)?;
         let f0s = self.f0s()?;
-        let lut = self.family(f0s[0])?;
+        let packing = self.family(f0s[0])?;
+        let lut = packing.main();
         if lut.f0().is_none() && (self.f0.is_some() || self.ior.is_some()) {
             let what = if self.ior.is_some() { "ior" } else { "f0" };
-            let got = format!("--lut {} {}", lut.name(), lut.flags());
+            let got = format!("--lut {} {}", lut.name(), packing.flags());
             let cure = "leave it out: no other table depends on F0";
             return Err(Error::bad_input(what, "the split of energy beside it", got, cure));
         }
-        let request = Request::new(lut, x, y, accuracy(&lut)?, precision)?;
+        let accuracy = accuracy(&packing)?;
+        let request = Request::new(packing, x, y, accuracy, precision)?;
         match self.slices(&f0s, depth)? {
             Some(slices) => request.with_slices(slices),
             None => Ok(request),
@@ -233,7 +308,15 @@ impl TableArgs {
         Ok((Axis::new(x, columns)?, Axis::new(y, rows)?))
     }
 
-    fn accuracy(&self, lut: &Lut, precision: Precision) -> Result<Accuracy> {
+    fn accuracy(&self, packing: &Packing, precision: Precision) -> Result<Accuracy> {
+        if let Some(estimator) = &self.estimator {
+            let others = self.rule.is_some() || self.tolerance.is_some();
+            if others || self.certify == Some(Switch::On) {
+                let expected = "neither a rule nor a tolerance nor certify beside it";
+                return Err(Error::bad_input("estimator", expected, "one", "leave it out"));
+            }
+            return Ok(Accuracy::Estimator(estimator.parse()?));
+        }
         match (&self.rule, self.tolerance, self.certify) {
             (Some(_), Some(_), _) => Err(Error::bad_input(
                 "rule",
@@ -246,9 +329,9 @@ impl TableArgs {
                 Err(Error::bad_input("rule", "none where values are certified", "a rule", cure))
             }
             (Some(name), None, _) => Ok(Accuracy::Rule(Rule::named(name)?)),
-            (None, None, Some(Switch::Off)) => Ok(Accuracy::uncertified(lut, precision)),
+            (None, None, Some(Switch::Off)) => Ok(Accuracy::uncertified(packing, precision)),
             (None, Some(tolerance), Some(Switch::Off)) => Ok(Accuracy::Tolerance(tolerance)),
-            (None, None, _) => Ok(Accuracy::by_default(lut, precision)),
+            (None, None, _) => Ok(Accuracy::by_default(packing, precision)),
             // Storages that are rounded correctly refuse it.
             (None, Some(tolerance), _) => Ok(Accuracy::Within(tolerance)),
         }

@@ -229,7 +229,7 @@ impl Setting {
                 (Arithmetic::F32, _) => Err(Error::Internal(format!("rule {} in f32", rule.name))),
             },
             Setting::Certified(precision) => {
-                let lut = Lut::Dfg(Dfg::new(lobe, Fresnel::Schlick, DfgChannels::All)?);
+                let lut = Lut::Dfg(Dfg::new(lobe, Fresnel::Schlick, DfgChannels::All)?).into();
                 let task = Task { lut: &lut, grid, precision: *precision, tolerance: 1e-6 };
                 let (values, _) = certify(&task, None, &|_| ())?;
                 Ok(values.chunks_exact(2).map(|ab| ScaleBias { a: ab[0], b: ab[1] }).collect())

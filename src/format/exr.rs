@@ -1,8 +1,9 @@
-//! OpenEXR: R, G, B in half or float, losslessly compressed. three.js refuses files with fewer than
-//! three channels.
+//! OpenEXR: R, G, B and, where there is a fourth, A in half or float, losslessly compressed.
+//! three.js refuses files with fewer than three channels.
 
 use super::metadata::{KEY, TOOL, metadata};
-use super::{WriteSeek, failed, texel_bytes};
+use super::texels::Texels;
+use super::{WriteSeek, failed};
 use crate::error::{Error, Result};
 use crate::table::Table;
 use crate::table::precision::Precision;
@@ -22,26 +23,23 @@ const ENCODING: Encoding = Encoding {
 
 /// Writes an EXR file; slices are as many parts, named for their parameter. Lines are read from the
 /// table as they are compressed: no second copy of the values is made.
-pub fn write(table: &Table, file: &mut dyn WriteSeek) -> Result<()> {
-    // A layer's type depends on how it reads a texel, so that each precision has a type of its own.
+pub fn write(texels: &Texels, file: &mut dyn WriteSeek) -> Result<()> {
+    // A layer's type depends on how it reads a texel, so that each precision and number of
+    // components has a type of its own.
     macro_rules! write_as {
-        ($sample:ty, $from:expr) => {{
+        ($sample:ty, $from:expr, $($name:literal = $component:literal),+) => {{
             let layer = |slice| {
                 let pixel = move |Vec2(i, j)| {
-                    let [red, green, blue] =
-                        [0, 1, 2].map(|channel| $from(texel_bytes(table, slice, (i, j), channel)));
-                    (red, green, blue)
+                    ($($from(texels.component(slice, (i, j), $component))),+)
                 };
                 let channels = SpecificChannels::build()
-                    .with_channel::<$sample>("R")
-                    .with_channel::<$sample>("G")
-                    .with_channel::<$sample>("B")
+                    $(.with_channel::<$sample>($name))+
                     .with_pixel_fn(pixel);
-                Ok(Layer::new(size_of(table), attributes(table, slice)?, ENCODING, channels))
+                let size = size_of(texels.table);
+                Ok(Layer::new(size, attributes(texels, slice)?, ENCODING, channels))
             };
-            let layers: Layers<_> =
-                (0..table.layout().slice_count()).map(layer).collect::<Result<_>>()?;
-            let size = IntegerBounds::from_dimensions(size_of(table));
+            let layers: Layers<_> = (0..texels.size()[2]).map(layer).collect::<Result<_>>()?;
+            let size = IntegerBounds::from_dimensions(size_of(texels.table));
             let image = Image::from_layers(ImageAttributes::new(size), layers);
             let writer = image.write();
             // The crate has threads of its own: none beside the only one that there is to be.
@@ -52,12 +50,16 @@ pub fn write(table: &Table, file: &mut dyn WriteSeek) -> Result<()> {
             written.map_err(refused)
         }};
     }
-    match table.precision() {
-        Precision::F16 => write_as!(f16, f16::from_le_bytes),
-        Precision::F32 => write_as!(f32, f32::from_le_bytes),
-        Precision::Unorm16 | Precision::Unorm8 | Precision::F64 => {
-            Err(internal("a table that is no float"))
+    match (texels.precision(), texels.components()) {
+        (Precision::F16, 3) => write_as!(f16, f16::from_le_bytes, "R" = 0, "G" = 1, "B" = 2),
+        (Precision::F32, 3) => write_as!(f32, f32::from_le_bytes, "R" = 0, "G" = 1, "B" = 2),
+        (Precision::F16, 4) => {
+            write_as!(f16, f16::from_le_bytes, "R" = 0, "G" = 1, "B" = 2, "A" = 3)
         }
+        (Precision::F32, 4) => {
+            write_as!(f32, f32::from_le_bytes, "R" = 0, "G" = 1, "B" = 2, "A" = 3)
+        }
+        _ => Err(internal("a table that is no float, or has other components")),
     }
 }
 
@@ -76,15 +78,15 @@ fn refused(error: ExrError) -> Error {
     }
 }
 
-fn attributes(table: &Table, slice: usize) -> Result<LayerAttributes> {
+fn attributes(texels: &Texels, slice: usize) -> Result<LayerAttributes> {
     let mut attributes =
         LayerAttributes { software_name: Some(Text::from(TOOL)), ..LayerAttributes::default() };
-    if let Some(slices) = &table.layout().slices {
+    if let Some(slices) = &texels.table.layout().slices {
         attributes.layer_name = Some(Text::from(slices.label(slice).as_str()));
     }
     // One custom attribute and no more: the crate keeps them in a hash map, whose order is not the
     // same twice.
-    let text = metadata(table, slice, &["R", "G", "B"])?;
+    let text = metadata(texels, slice)?;
     let text = Text::new_or_none(text).ok_or_else(|| internal("metadata that is not ASCII"))?;
     attributes.other.insert(Text::from(KEY), AttributeValue::Text(text));
     Ok(attributes)

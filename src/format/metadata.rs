@@ -1,17 +1,17 @@
 //! Every convention of a table as one JSON text, for whichever field a format has for it.
 
+use super::texels::Texels;
 use crate::error::{Error, Result};
 use crate::table::axis::{Axis, Parameter};
 use crate::table::claim::Claim;
 use crate::table::precision::Precision;
-use crate::table::{Provenance, Table};
+use crate::table::{Part, Provenance};
 use serde::Serialize;
 
 /// The key under which files carry the text.
 pub const KEY: &str = "splitsum";
 
-/// The tool and its version.
-pub const TOOL: &str = concat!("splitsum ", env!("CARGO_PKG_VERSION"));
+pub use crate::lookup::TOOL;
 
 #[derive(Serialize)]
 struct Metadata<'a> {
@@ -20,8 +20,11 @@ struct Metadata<'a> {
     provenance: &'a Provenance,
     #[serde(flatten)]
     claim: &'a Claim,
-    command: &'a str,
+    command: String,
     channels: Vec<String>,
+    /// The parts besides the main one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    others: Vec<Other<'a>>,
     x: AxisText,
     y: AxisText,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -30,6 +33,16 @@ struct Metadata<'a> {
     stored: Precision,
     rounding: &'static str,
     rounding_error: f64,
+}
+
+/// A part besides the main one.
+#[derive(Serialize)]
+struct Other<'a> {
+    channels: Vec<&'a str>,
+    #[serde(flatten)]
+    provenance: &'a Provenance,
+    #[serde(flatten)]
+    claim: &'a Claim,
 }
 
 #[derive(Serialize)]
@@ -62,20 +75,31 @@ impl AxisText {
     }
 }
 
-/// The text of a slice in ASCII, for a file that stores the channels under these names; names
-/// without a channel are stored as 0.
-pub fn metadata(table: &Table, slice: usize, names: &[&str]) -> Result<String> {
+impl<'a> Other<'a> {
+    fn new(part: &'a Part, names: &[&'a str]) -> Self {
+        Other {
+            channels: part.channels.iter().filter_map(|&place| names.get(place).copied()).collect(),
+            provenance: &part.provenance,
+            claim: &part.claim,
+        }
+    }
+}
+
+/// The text of a slice in ASCII: what each component of a texel is, and all that a reader has to
+/// know of the numbers.
+pub fn metadata(texels: &Texels, slice: usize) -> Result<String> {
+    let (table, names) = (texels.table, texels.names());
     let precision = table.precision();
-    let channel = |(i, name): (usize, &&str)| match table.channels().get(i) {
-        Some(channel) => format!("{name} = {} ({})", channel.name, channel.meaning),
-        None => format!("{name} = 0 (unused)"),
+    let [main, others @ ..] = table.parts(slice) else {
+        return Err(Error::Internal("a table without parts".into()));
     };
     let metadata = Metadata {
         tool: TOOL,
-        provenance: table.provenance(slice),
-        claim: table.claim(slice),
-        command: table.command(),
-        channels: names.iter().enumerate().map(channel).collect(),
+        provenance: &main.provenance,
+        claim: &main.claim,
+        command: texels.command(),
+        channels: texels.about_components(),
+        others: others.iter().map(|part| Other::new(part, names)).collect(),
         x: AxisText::new(table.x()),
         y: AxisText::new(table.y()),
         slice: table.layout().slices.as_ref().map(|slices| SliceText {
@@ -85,8 +109,20 @@ pub fn metadata(table: &Table, slice: usize, names: &[&str]) -> Result<String> {
             value: slices.values()[slice],
             axis: slices.spec().map(|spec| spec.to_string()),
         }),
-        origin: "texel i = 0 is the left end of a row, row 0 is the first and topmost; values are \
-                 linear",
+        origin: match precision {
+            Precision::Srgb8 => {
+                "texel i = 0 is the left end of a row, row 0 is the first and topmost; codes are \
+                 on the curve of sRGB"
+            }
+            Precision::Rgbd8 => {
+                "texel i = 0 is the left end of a row, row 0 is the first and topmost; a value is \
+                 (code/255)^2.2 / (A/255)"
+            }
+            _ => {
+                "texel i = 0 is the left end of a row, row 0 is the first and topmost; values are \
+                 linear"
+            }
+        },
         stored: precision,
         rounding: "to nearest, ties to even",
         rounding_error: precision.half_step(),

@@ -84,7 +84,7 @@ impl InterpolantRule {
 
     /// Whether an α lies in its domain.
     pub fn covers(&self, alpha: f64) -> bool {
-        alpha >= SMOOTHEST * SMOOTHEST
+        (SMOOTHEST * SMOOTHEST..=1.0).contains(&alpha)
     }
 
     /// The (n·v, α) of its nodes, n·v varying fastest.

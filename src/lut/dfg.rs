@@ -5,7 +5,7 @@
 //! of Lagarde and Golubev, "The road toward unified rendering with Unity's high definition
 //! rendering pipeline", 2018, and of Filament.
 
-use super::{MOST_CHANNELS, first};
+use super::{MOST_CHANNELS, first, lobe_flags};
 use crate::brdf::fresnel::Integral;
 use crate::brdf::{Fresnel, Microfacet};
 use crate::error::{Error, Result};
@@ -29,19 +29,25 @@ pub enum DfgChannels {
     Be,
     /// E alone: the directional albedo at F = 1.
     E,
+    /// The integrals of all weights, and E: what lists of terms are picked from.
+    Every,
 }
 
 /// The channel that holds an integral.
 fn channel_of(&Integral { name, meaning, .. }: &Integral) -> Channel {
-    Channel { name, meaning }
+    Channel::new(name, meaning)
 }
 
-const E: Channel = Channel { name: "E", meaning: "directional albedo at F = 1: E = A + B" };
+const E: (&str, &str) = ("E", "directional albedo at F = 1: E = A + B");
 
 impl Dfg {
     /// Refuses a masking term that has no meaning for the distribution, and channels that the
     /// Fresnel model has not.
     pub fn new(lobe: Microfacet, fresnel: Fresnel, channels: DfgChannels) -> Result<Self> {
+        if channels == DfgChannels::Every {
+            lobe.check()?;
+            return Ok(Dfg { lobe, fresnel, channels });
+        }
         Dfg::with_channels(lobe, fresnel, channels.word(fresnel))
     }
 
@@ -73,22 +79,27 @@ impl Dfg {
         self.channels.word(self.fresnel)
     }
 
-    /// The flag of the Fresnel model, which Schlick's does not need.
-    pub(super) fn fresnel_flag(&self) -> String {
+    /// Lobe and Fresnel model as flags; Schlick's needs none.
+    pub(super) fn lobe_flags(&self) -> String {
         match self.fresnel {
-            Fresnel::Schlick => String::new(),
-            fresnel => format!(" --fresnel {fresnel}"),
+            Fresnel::Schlick => lobe_flags(self.lobe),
+            fresnel => format!("{} --fresnel {fresnel}", lobe_flags(self.lobe)),
         }
     }
 
     /// The channels in order.
     pub(super) fn list(&self) -> Vec<Channel> {
         let integrals = self.fresnel.definition().integrals.iter();
-        let integrals: Vec<Channel> = integrals.map(channel_of).collect();
+        let mut integrals: Vec<Channel> = integrals.map(channel_of).collect();
+        let e = Channel::new(E.0, E.1);
         match self.channels {
             DfgChannels::All => integrals,
-            DfgChannels::Be => vec![integrals[1], E],
-            DfgChannels::E => vec![E],
+            DfgChannels::Be => vec![integrals.swap_remove(1), e],
+            DfgChannels::E => vec![e],
+            DfgChannels::Every => {
+                integrals.push(e);
+                integrals
+            }
         }
     }
 
@@ -99,6 +110,11 @@ impl Dfg {
             DfgChannels::All => first(integrals),
             DfgChannels::Be => first(&[integrals[1], integrals[0] + integrals[1]]),
             DfgChannels::E => first(&[integrals[0] + integrals[1]]),
+            DfgChannels::Every => {
+                let mut values = first(integrals);
+                values[integrals.len()] = integrals[0] + integrals[1];
+                values
+            }
         }
     }
 }
@@ -111,6 +127,7 @@ impl DfgChannels {
             DfgChannels::All => true,
             DfgChannels::Be => fresnel.count() == 2,
             DfgChannels::E => fresnel.count() >= 2,
+            DfgChannels::Every => false,
         };
         [DfgChannels::All, DfgChannels::Be, DfgChannels::E].into_iter().filter(serves)
     }
@@ -121,8 +138,10 @@ impl DfgChannels {
             DfgChannels::All => fresnel.definition().channels,
             DfgChannels::Be => "be",
             DfgChannels::E => "e",
+            DfgChannels::Every => "every",
         }
     }
+
     /// They in a line, for `--help`.
     #[cfg(feature = "cli")]
     pub(crate) fn about(self, fresnel: Fresnel) -> &'static str {
@@ -130,6 +149,7 @@ impl DfgChannels {
             DfgChannels::All => fresnel.definition().albedo,
             DfgChannels::Be => "B and E = A + B, the multiple-scattering packing",
             DfgChannels::E => "E = A + B alone",
+            DfgChannels::Every => "all integrals and E",
         }
     }
 }

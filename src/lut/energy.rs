@@ -30,7 +30,6 @@ use crate::brdf::{Masking, Microfacet};
 use crate::choice::{Choice, choice};
 use crate::error::{Error, Result};
 use crate::numeric::ball::Ball;
-use crate::table::Channel;
 use crate::units::F0;
 
 /// A specular lobe with Schlick's Fresnel, its F0, and the numbers that a texel holds.
@@ -153,29 +152,25 @@ pub fn check_scatters(lobe: Microfacet) -> Result<()> {
 }
 
 impl EnergyChannels {
-    /// The channels in order.
-    pub fn list(self) -> &'static [Channel] {
+    /// The channels in order, each with its name and its meaning.
+    pub fn list(self) -> &'static [(&'static str, &'static str)] {
         match self {
             EnergyChannels::Average => &[
-                Channel { name: "A_avg", meaning: "average of A: 2 * integral of A mu dmu" },
-                Channel { name: "B_avg", meaning: "average of B" },
-                Channel { name: "E_avg", meaning: "average albedo at F = 1" },
+                ("A_avg", "average of A: 2 * integral of A mu dmu"),
+                ("B_avg", "average of B"),
+                ("E_avg", "average albedo at F = 1"),
             ],
             EnergyChannels::KullaConty => &[
-                Channel { name: "E", meaning: "f_ms = (1-E(l))(1-E(v)) / (pi (1-E_avg))" },
-                Channel { name: "E_avg", meaning: "average albedo at F = 1" },
+                ("E", "f_ms = (1-E(l))(1-E(v)) / (pi (1-E_avg))"),
+                ("E_avg", "average albedo at F = 1"),
             ],
-            EnergyChannels::Turquin => &[Channel {
-                name: "(1-E)/E",
-                meaning: "the lobe times 1 + F0 (1-E)/E keeps its energy",
-            }],
+            EnergyChannels::Turquin => {
+                &[("(1-E)/E", "the lobe times 1 + F0 (1-E)/E keeps its energy")]
+            }
             EnergyChannels::Split => &[
-                Channel { name: "1-F", meaning: "diffuse factor (a): 1 - F(n.v)" },
-                Channel { name: "1-E", meaning: "diffuse factor (b): 1 - E(v) at F0" },
-                Channel {
-                    name: "R",
-                    meaning: "diffuse factor (c): R(l) R(v), R = (1-E)/sqrt(1-E_avg) at F0",
-                },
+                ("1-F", "diffuse factor (a): 1 - F(n.v)"),
+                ("1-E", "diffuse factor (b): 1 - E(v) at F0"),
+                ("R", "diffuse factor (c): R(l) R(v), R = (1-E)/sqrt(1-E_avg) at F0"),
             ],
         }
     }

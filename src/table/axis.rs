@@ -2,8 +2,12 @@
 //! the crate.
 //!
 //! Texel i of N lies at t = (i + offset)/N (centres: offset ½) or t = i/(N-1) (edges), clamped to
-//! [0, 1]; a flipped axis counts its texels from the other end; the mapping carries t to the
-//! parameter.
+//! [0, 1] unless the axis is unclamped; a flipped axis counts its texels from the other end; the
+//! mapping carries t to the parameter.
+
+mod expression;
+
+pub use expression::Words;
 
 use crate::choice::{Choice, choice};
 use crate::error::{Error, Result};
@@ -77,8 +81,12 @@ pub struct AxisSpec {
     pub nodes: Nodes,
     /// Whether texel 0 is the far end.
     pub flip: bool,
+    /// Whether texels beyond an end of [0, 1] are moved to that end.
+    pub clamp: bool,
     /// Parameters below this are raised to it.
     pub min: f64,
+    /// Parameters above this are lowered to it.
+    pub max: f64,
 }
 
 /// An axis of a table: every texel's parameter is in its range.
@@ -96,7 +104,9 @@ impl AxisSpec {
             mapping: Mapping::Linear,
             nodes: Nodes::Offset(0.5),
             flip: false,
+            clamp: true,
             min: 0.0,
+            max: f64::INFINITY,
         }
     }
 }
@@ -117,7 +127,8 @@ impl Axis {
             Nodes::Offset(offset) => offset,
         };
         // NaN is in no range.
-        if !(OFFSETS.contains(&offset) && (0.0..=1.0).contains(&spec.min)) {
+        let ends = (0.0..=1.0).contains(&spec.min) && spec.max > 0.0 && spec.min <= spec.max;
+        if !(OFFSETS.contains(&offset) && ends) {
             let got = format!("'{spec}'");
             return Err(Error::bad_input("axis", AXIS_WORDS, got, "use those words"));
         }
@@ -126,15 +137,16 @@ impl Axis {
             let value = axis.value(i);
             let checked = match spec.parameter {
                 Parameter::Nov => Cosine::new(value).map(drop),
-                Parameter::Roughness => PerceptualRoughness::new(value).map(drop),
-                Parameter::Alpha => Alpha::new(value).map(drop),
+                Parameter::Roughness => PerceptualRoughness::of_texel(value).map(drop),
+                Parameter::Alpha => Alpha::of_texel(value).map(drop),
                 // The same range: p in [0, 1] is every exponent from 1 to 1e7.
                 Parameter::Exponent | Parameter::F0 => F0::new(value).map(drop),
             };
             checked.map_err(|error| match error {
                 Error::BadInput(mut complaint) => {
                     complaint.what = format!("{} at texel {i} of axis '{spec}'", complaint.what);
-                    complaint.cure = "choose other nodes, or raise the axis's min".into();
+                    complaint.cure =
+                        "choose other nodes, raise the axis's min, or lower its max".into();
                     Error::BadInput(complaint)
                 }
                 other => other,
@@ -159,14 +171,14 @@ impl Axis {
         let t = match self.spec.nodes {
             Nodes::Edges => i / (self.size as f64 - 1.0).max(1.0),
             Nodes::Offset(offset) => (i + offset) / self.size as f64,
-        }
-        .clamp(0.0, 1.0);
+        };
+        let t = if self.spec.clamp { t.clamp(0.0, 1.0) } else { t };
         let p = match self.spec.mapping {
             Mapping::Linear => t,
             Mapping::Sqrt => t * t,
             Mapping::SqrtComplement => (1.0 - t) * (1.0 + t),
         };
-        p.max(self.spec.min)
+        p.max(self.spec.min).min(self.spec.max)
     }
 
     /// The fractional texel at which the parameter is `p`: the inverse of [`Axis::value`] where
@@ -192,10 +204,11 @@ impl Axis {
         (first, (first + 1).min(last), texel - first as f64)
     }
 
-    /// The number of texels whose parameter was raised to the axis's min.
+    /// The number of texels whose parameter was moved to the axis's min or max.
     pub fn clamped(&self) -> usize {
-        let free = Axis { spec: AxisSpec { min: 0.0, ..self.spec }, size: self.size };
-        (0..self.size).filter(|&i| free.value(i) < self.spec.min).count()
+        let spec = AxisSpec { min: 0.0, max: f64::INFINITY, ..self.spec };
+        let free = Axis { spec, size: self.size };
+        (0..self.size).filter(|&i| free.value(i) != self.value(i)).count()
     }
 
     /// The parameter at every texel, in order.
@@ -216,41 +229,13 @@ impl Axis {
             Mapping::Sqrt => "t^2",
             Mapping::SqrtComplement => "1 - t^2",
         };
-        let min = self.spec.min;
+        let AxisSpec { min, max, .. } = self.spec;
         let p = if min > 0.0 { format!("max({p}, {min:?})") } else { p.into() };
+        let p = if max.is_finite() { format!("min({p}, {max:?})") } else { p };
         let p =
             if self.spec.parameter == Parameter::Exponent { format!("10^(7 ({p}))") } else { p };
-        format!("{} = {p}, t = clamp({t}, 0, 1)", self.spec.parameter)
-    }
-
-    /// The texture coordinate in [0, 1] at a parameter, as an expression in the variable `p`: the
-    /// inverse of [`Axis::value`] where that does not clamp. The same text is valid in WGSL, GLSL,
-    /// HLSL and Metal. The variable of an exponent is n itself.
-    pub fn uv(&self, p: &str) -> String {
-        let n = self.size as f64;
-        let p = match self.spec.parameter {
-            // p = log10(n)/7
-            Parameter::Exponent => format!("(log2({p}) * {:?})", std::f64::consts::LOG10_2 / 7.0),
-            Parameter::Nov | Parameter::Roughness | Parameter::Alpha | Parameter::F0 => {
-                p.to_owned()
-            }
-        };
-        let t = match self.spec.mapping {
-            Mapping::Linear => p,
-            Mapping::Sqrt => format!("sqrt(max({p}, 0.0))"),
-            Mapping::SqrtComplement => format!("sqrt(max(1.0 - {p}, 0.0))"),
-        };
-        // A sampler finds the centre of texel i at (i + 1/2)/N.
-        let (scale, offset) = match self.spec.nodes {
-            Nodes::Edges => ((n - 1.0).max(1.0) / n, 0.5 / n),
-            Nodes::Offset(offset) => (1.0, (0.5 - offset) / n),
-        };
-        let (scale, offset) = if self.spec.flip { (-scale, 1.0 - offset) } else { (scale, offset) };
-        match (scale, offset) {
-            (1.0, 0.0) => t,
-            (1.0, offset) => format!("{t} + {offset:?}"),
-            (scale, offset) => format!("{t} * {scale:?} + {offset:?}"),
-        }
+        let t = if self.spec.clamp { format!("clamp({t}, 0, 1)") } else { t };
+        format!("{} = {p}, t = {t}", self.spec.parameter)
     }
 }
 
@@ -258,10 +243,11 @@ impl Axis {
 const OFFSETS: RangeInclusive<f64> = -2.0..=2.0;
 
 /// The words of an axis, for `--help` and errors.
-pub const AXIS_WORDS: &str = "PARAMETER[,MAPPING][,NODES][,flip][,min=X] with PARAMETER nov, \
-                              roughness, alpha, exponent or (along z) f0; MAPPING linear, sqrt (t \
-                              = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES centres, edges \
-                              or offset=X with X in [-2, 2]; min=X with X in [0, 1]";
+pub const AXIS_WORDS: &str = "PARAMETER[,MAPPING][,NODES][,flip][,unclamped][,min=X][,max=X] with \
+                              PARAMETER nov, roughness, alpha, exponent or (along z) f0; MAPPING \
+                              linear, sqrt (t = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES \
+                              centres, edges or offset=X with X in [-2, 2]; min=X with X in [0, 1]; \
+                              max=X from min up";
 
 impl FromStr for AxisSpec {
     type Err = Error;
@@ -279,7 +265,7 @@ impl FromStr for AxisSpec {
         for word in words {
             let kind = match word.split_once('=') {
                 Some((key, _)) if key != "offset" => key,
-                None if word == "flip" => word,
+                None if word == "flip" || word == "unclamped" => word,
                 Some(_) | None if Mapping::named(word).is_err() => "nodes",
                 _ => "mapping",
             };
@@ -292,10 +278,12 @@ impl FromStr for AxisSpec {
                     "centres" => spec.nodes = Nodes::Offset(0.5),
                     "edges" => spec.nodes = Nodes::Edges,
                     "flip" => spec.flip = true,
+                    "unclamped" => spec.clamp = false,
                     _ => spec.mapping = Mapping::named(word).map_err(|_| wrong(word))?,
                 },
                 Some(("offset", x)) => spec.nodes = Nodes::Offset(number(x)?),
                 Some(("min", x)) => spec.min = number(x)?,
+                Some(("max", x)) => spec.max = number(x)?,
                 Some(_) => return Err(wrong(word)),
             }
         }
@@ -315,9 +303,15 @@ impl fmt::Display for AxisSpec {
         if self.flip {
             write!(f, ",flip")?;
         }
-        // What is no min is shown too, since an error quotes it.
+        if !self.clamp {
+            write!(f, ",unclamped")?;
+        }
+        // What is no min or max is shown too, since an error quotes it.
         if self.min != 0.0 {
             write!(f, ",min={}", short(self.min))?;
+        }
+        if self.max != f64::INFINITY {
+            write!(f, ",max={}", short(self.max))?;
         }
         Ok(())
     }

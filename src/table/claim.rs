@@ -22,6 +22,14 @@ pub enum Claim {
         /// Backend, arithmetic and device.
         computed_by: String,
     },
+    /// The values are those of an engine's own estimator, which has no bound.
+    Estimated {
+        /// The estimator.
+        estimator: String,
+        /// The largest error found against the double-exponential reference, and the number of
+        /// texels compared.
+        measured_error: (f64, usize),
+    },
 }
 
 /// A certificate. Nothing in it depends on the backend: the same request gives the same
@@ -95,7 +103,7 @@ impl Claim {
     pub fn certificate(&self) -> Option<&Certificate> {
         match self {
             Claim::Certificate(certificate) => Some(certificate),
-            Claim::Uncertified { .. } => None,
+            Claim::Uncertified { .. } | Claim::Estimated { .. } => None,
         }
     }
 }

@@ -71,7 +71,7 @@ impl Grid {
 /// α at every texel of an axis of roughness; none of another axis.
 fn alphas(axis: &Axis) -> Option<Result<Vec<f64>>> {
     let alpha: fn(f64) -> Result<f64> = match axis.spec().parameter {
-        Parameter::Roughness => |p| PerceptualRoughness::new(p).map(|r| Alpha::from(r).get()),
+        Parameter::Roughness => |p| PerceptualRoughness::of_texel(p).map(|r| Alpha::from(r).get()),
         Parameter::Exponent => |p| Ok(alpha_of_exponent(libm::exp10(7.0 * p))),
         Parameter::Alpha => Ok,
         Parameter::Nov | Parameter::F0 => return None,

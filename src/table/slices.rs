@@ -2,6 +2,7 @@
 //! parameter. Files store slices as layers.
 
 use super::axis::{Axis, AxisSpec, Parameter};
+use crate::choice::choice;
 use crate::error::{Error, Result};
 use crate::units::{F0, short};
 
@@ -14,8 +15,23 @@ pub struct Slices {
     parameter: Parameter,
     values: Vec<f64>,
     /// The axis whose nodes the values are; none where they were listed.
-    spec: Option<AxisSpec>,
+    axis: Option<Axis>,
 }
+
+/// What slices are to a graphics API.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SlicesAs {
+    /// Layers of an array.
+    #[default]
+    Layers,
+    /// A texture of three dimensions.
+    Depth,
+}
+
+choice!(SlicesAs, "slices-as", {
+    Layers = "layers", "layers of an array texture";
+    Depth = "depth", "a texture of three dimensions, filtered between slices";
+});
 
 impl Slices {
     /// Slices at the nodes of an axis of F0.
@@ -30,7 +46,7 @@ impl Slices {
                 "lay n.v and roughness along x and y",
             ));
         }
-        Slices::new(spec.parameter, axis.values(), Some(spec))
+        Slices::new(spec.parameter, axis.values(), Some(*axis))
     }
 
     /// Slices at these F0, at least two: a table for one has no slices.
@@ -43,7 +59,7 @@ impl Slices {
         Slices::new(Parameter::F0, values.iter().map(|f0| f0.get()).collect(), None)
     }
 
-    fn new(parameter: Parameter, values: Vec<f64>, spec: Option<AxisSpec>) -> Result<Self> {
+    fn new(parameter: Parameter, values: Vec<f64>, axis: Option<Axis>) -> Result<Self> {
         if !(1..=LARGEST_COUNT).contains(&values.len()) {
             let expected = format!("1 to {LARGEST_COUNT} slices");
             let got = values.len().to_string();
@@ -54,7 +70,7 @@ impl Slices {
             let cure = "give each value once, or other nodes";
             return Err(Error::bad_input(parameter.to_string(), expected, listed(&values), cure));
         }
-        Ok(Slices { parameter, values, spec })
+        Ok(Slices { parameter, values, axis })
     }
 
     /// The parameter that differs from slice to slice.
@@ -73,8 +89,13 @@ impl Slices {
     }
 
     /// The axis whose nodes the values are; none where they were listed.
+    pub fn axis(&self) -> Option<&Axis> {
+        self.axis.as_ref()
+    }
+
+    /// The words of that axis.
     pub fn spec(&self) -> Option<AxisSpec> {
-        self.spec
+        self.axis.map(|axis| axis.spec())
     }
 
     /// The name of a slice, such as `F0 = 0.04`.

@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test binary uses a part of this")]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use libtest_mimic::Trial;
+use libtest_mimic::{Failed, Trial};
 use splitsum::backend::cpu;
 use splitsum::brdf::fresnel::Schlick;
 use splitsum::brdf::{Fresnel, Masking, Microfacet, Ndf};
@@ -10,16 +10,18 @@ use splitsum::certify::decision::Task;
 use splitsum::certify::stages::Stages;
 use splitsum::certify::ziv::{DeviceTable, certify_band};
 use splitsum::choice::Choice;
-use splitsum::error::Result;
 use splitsum::integrate::double_exponential::{DoubleExponentialNodes, double_exponential};
 use splitsum::integrate::half_vectors::{HalfVectorNodes, half_vectors};
 use splitsum::integrate::light_directions::{LightDirectionNodes, light_directions};
 use splitsum::integrate::rule::{Method, Rule};
 use splitsum::integrate::rules::REFERENCE;
 use splitsum::integrate::{Field, ScaleBias};
-use splitsum::lut::{Dfg, DfgChannels, Lut};
+use splitsum::lut::{Dfg, DfgChannels, Lut, Part};
+use splitsum::numeric::half;
 use splitsum::numeric::quadrature::tanh_sinh::tanh_sinh;
 use splitsum::table::claim::{Certificate, Stage};
+use std::path::PathBuf;
+use std::process::Command;
 
 pub fn ggx(masking: Masking) -> Microfacet {
     Microfacet { ndf: Ndf::Ggx, masking }
@@ -125,6 +127,11 @@ pub fn ab(lobe: Microfacet) -> Lut {
     Lut::Dfg(Dfg::new(lobe, Fresnel::Schlick, DfgChannels::All).unwrap())
 }
 
+/// The same as the only part of a packing.
+pub fn part(lobe: Microfacet) -> Part {
+    ab(lobe).into()
+}
+
 /// A table of these A and B as backends give it.
 pub fn field(values: &[ScaleBias]) -> Field {
     Field::of(2, values.iter().flat_map(|value| value.array()).collect())
@@ -167,12 +174,16 @@ pub struct Certified {
 }
 
 /// Certifies a table.
-pub fn certify(task: &Task, device: Option<DeviceTable>) -> Result<Certified> {
+pub fn certify(task: &Task, device: Option<DeviceTable>) -> splitsum::Result<Certified> {
     certify_by(task, &Stages::of(task), device)
 }
 
 /// The same through these stages.
-pub fn certify_by(task: &Task, stages: &Stages, device: Option<DeviceTable>) -> Result<Certified> {
+pub fn certify_by(
+    task: &Task,
+    stages: &Stages,
+    device: Option<DeviceTable>,
+) -> splitsum::Result<Certified> {
     let (values, tally) = certify_band(task, stages, device, &|_| ())?;
     let certificate = tally.certificate(task, stages, String::new())?;
     Ok(Certified { values, certificate, stages: tally.stages })
@@ -198,22 +209,75 @@ pub fn average_in_two_pieces(lobe: Microfacet, alpha: f64, middle: f64) -> Scale
     sum
 }
 
-/// Whether a missing device, layer or tool is a failure.
-fn required() -> bool {
-    std::env::var_os("SPLITSUM_REQUIRE_VULKAN").is_some()
-}
+/// The variable that makes a failure of a missing device or layer.
+pub const VULKAN: &str = "SPLITSUM_REQUIRE_VULKAN";
+/// The variable that makes a failure of a missing reader, compiler or browser.
+pub const READERS: &str = "SPLITSUM_REQUIRE_READERS";
 
-/// A test that cannot run here: ignored, or failed where it is required.
-pub fn missing(name: String, reason: String) -> Trial {
-    if required() {
-        return Trial::test(name, move || {
-            Err(format!("SPLITSUM_REQUIRE_VULKAN is set, but {reason}").into())
-        });
+/// A test that cannot run here: ignored, or failed where this variable requires it.
+pub fn missing(variable: &'static str, name: String, reason: String) -> Trial {
+    if std::env::var_os(variable).is_some() {
+        return Trial::test(name, move || Err(format!("{variable} is set, but {reason}").into()));
     }
     Trial::test(format!("{name} ({reason})"), || Ok(())).with_ignored_flag(true)
+}
+
+/// A test by a tool that a variable names, as a program or a folder.
+pub fn with_named(
+    variable: &str,
+    name: &str,
+    test: impl FnOnce(PathBuf) -> Result<(), Failed> + Send + 'static,
+) -> Trial {
+    match std::env::var_os(variable) {
+        Some(tool) => Trial::test(name, move || test(tool.into())),
+        None => missing(READERS, name.into(), format!("{variable} is not set")),
+    }
+}
+
+/// A test by a program that is asked for its version first.
+pub fn with_program(
+    program: &'static str,
+    name: &str,
+    test: impl FnOnce() -> Result<(), Failed> + Send + 'static,
+) -> Trial {
+    match Command::new(program).arg("--version").output() {
+        Ok(_) => Trial::test(name, test),
+        Err(_) => missing(READERS, name.into(), format!("{program} is not installed")),
+    }
+}
+
+/// What a command prints; an error with what it says where it fails.
+pub fn printed(command: &mut Command) -> Result<Vec<u8>, Failed> {
+    let output = command.output()?;
+    if output.status.success() {
+        return Ok(output.stdout);
+    }
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    Err(format!("{command:?}: {said}{}", String::from_utf8_lossy(&output.stdout)).into())
 }
 
 /// The points of the domain at which a lobe has an albedo.
 pub fn domain_of(lobe: Microfacet, count: usize) -> Vec<(f64, f64)> {
     domain(count).into_iter().filter(|&(mu, _)| mu > 0.0 || !lobe.diverges_at_grazing()).collect()
+}
+
+/// Components and numbers of an array.
+pub fn read_npy(bytes: &[u8]) -> (usize, Vec<f64>) {
+    let length = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+    let header = String::from_utf8_lossy(&bytes[10..10 + length]).into_owned();
+    let data = &bytes[10 + length..];
+    let shape = header.split("'shape': (").nth(1).and_then(|rest| rest.split(')').next());
+    let components = shape.and_then(|shape| shape.rsplit(", ").next()).unwrap();
+    let values = match header.split('\'').nth(3).unwrap() {
+        "<f2" => chunks(data, |bytes| half::value(u16::from_le_bytes(bytes))),
+        "<f4" => chunks(data, |bytes| f64::from(f32::from_le_bytes(bytes))),
+        "<u2" => chunks(data, |bytes| f64::from(u16::from_le_bytes(bytes))),
+        "|u1" => chunks(data, |[byte]: [u8; 1]| f64::from(byte)),
+        other => unreachable!("{other}"),
+    };
+    (components.parse().unwrap(), values)
+}
+
+fn chunks<const N: usize>(data: &[u8], value: impl Fn([u8; N]) -> f64) -> Vec<f64> {
+    data.as_chunks::<N>().0.iter().map(|&bytes| value(bytes)).collect()
 }

@@ -37,7 +37,7 @@ fn file(lut: Lut, size: usize, precision: Precision, backend: &Backend) -> Resul
         matches!(lut.integrand(), Integrand::Specular(Microfacet { ndf: Ndf::Charlie, .. }, _));
     let (x, y) =
         if charlie { (x, y) } else { (plain(Parameter::Nov)?, plain(Parameter::Roughness)?) };
-    let request = Request::new(lut, x, y, Accuracy::by_default(&lut, precision), precision)?;
+    let request = Request::new(lut, x, y, Accuracy::by_default(&lut.into(), precision), precision)?;
     let baked = splitsum::bake(&request, backend)?;
     let extension =
         if precision == Precision::F16 || precision == Precision::F32 { "exr" } else { "png" };
@@ -115,7 +115,8 @@ fn every_precision(gpu: &Gpu) -> Result<(), Failed> {
             Axis::new(AxisSpec::of(Parameter::Nov), 8)?,
             Axis::new(AxisSpec::of(Parameter::Roughness), 8)?,
         );
-        let request = Request::new(lut, x, y, Accuracy::by_default(&lut, precision), precision)?;
+        let request =
+            Request::new(lut, x, y, Accuracy::by_default(&lut.into(), precision), precision)?;
         let refused = splitsum::bake(&request, &device);
         if !refused.is_err_and(|error| error.exit_code() == ExitCode::BadInput) {
             return Err(format!("{lut:?} in {precision:?} by a device").into());

@@ -2,7 +2,7 @@
 //! drivers that compute nothing or leave something out; and that every failed call ends in an error
 //! with everything freed.
 
-use crate::common::{field, ggx, missing};
+use crate::common::{VULKAN, field, ggx, missing};
 use libtest_mimic::{Failed, Trial};
 use splitsum::backend::device::GpuOptions;
 use splitsum::backend::{Gpu, cpu};
@@ -92,6 +92,7 @@ fn a_driver_that_computes_nothing() -> Trial {
     let name = "a driver that computes nothing is found out, and no file is written".to_owned();
     let Some(icd) = std::env::var_os("SPLITSUM_MOCK_ICD") else {
         return missing(
+            VULKAN,
             name,
             "SPLITSUM_MOCK_ICD does not name the JSON file of a mock driver".into(),
         );
@@ -117,7 +118,7 @@ fn a_driver_that_computes_nothing() -> Trial {
 fn a_broken_manifest(kind: &'static str, arguments: &'static [&str]) -> Trial {
     let name = format!("a broken manifest of a {kind} is no device, and is named as what it is");
     if !LOADERS.iter().any(|path| Path::new(path).exists()) {
-        return missing(name, "there is no Vulkan loader where Linux has it".into());
+        return missing(VULKAN, name, "there is no Vulkan loader where Linux has it".into());
     }
     Trial::test(name, move || {
         let folder = tempfile::tempdir()?;
@@ -185,15 +186,16 @@ fn faulty_driver((fault, code): (&'static str, ExitCode)) -> Trial {
         Path::new(env!("CARGO_BIN_EXE_splitsum")).with_file_name("examples/libfaulty_loader.so");
     if !shim.exists() {
         return missing(
+            VULKAN,
             name,
             format!("{} is not built: run the whole of cargo test", shim.display()),
         );
     }
     let Some(loader) = LOADERS.into_iter().find(|path| Path::new(path).exists()) else {
-        return missing(name, "there is no Vulkan loader where Linux has it".into());
+        return missing(VULKAN, name, "there is no Vulkan loader where Linux has it".into());
     };
     if let Err(error) = Gpu::open(&GpuOptions { validate: true, ..GpuOptions::default() }) {
-        return missing(name, error.to_string());
+        return missing(VULKAN, name, error.to_string());
     }
     Trial::test(name, move || {
         let folder = tempfile::tempdir()?;

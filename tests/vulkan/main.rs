@@ -13,7 +13,7 @@ mod stability;
 mod tables;
 mod twins;
 
-use common::missing;
+use common::{VULKAN, missing};
 use libtest_mimic::{Arguments, Failed, Trial};
 use splitsum::backend::device::{DeviceInfo, GpuOptions};
 use splitsum::backend::{Gpu, list_devices};
@@ -48,7 +48,7 @@ fn main() {
             let reason = outcome.err().map_or("no Vulkan device".into(), |error| error.to_string());
             tests
                 .iter()
-                .map(|(name, _)| missing(format!("no device: {name}"), reason.clone()))
+                .map(|(name, _)| missing(VULKAN, format!("no device: {name}"), reason.clone()))
                 .collect()
         }
     };

@@ -1,7 +1,7 @@
 //! Whole tables on a device, against the CPU in f64.
 
 use crate::DeviceTest;
-use crate::common::{Difference, ggx, missing};
+use crate::common::{Difference, VULKAN, ggx, missing};
 use libtest_mimic::{Failed, Trial};
 use splitsum::backend::device::GpuOptions;
 use splitsum::backend::wgsl::{bake_kernel, kernel, lobe_source};
@@ -167,6 +167,7 @@ pub fn validated() -> Vec<Trial> {
     let devices = list_devices().unwrap_or_default();
     if devices.is_empty() {
         trials.push(missing(
+            VULKAN,
             "no device: the validation layers have nothing to say".into(),
             "there is no device".into(),
         ));
@@ -175,7 +176,7 @@ pub fn validated() -> Vec<Trial> {
         let name = format!("{}: the validation layers have nothing to say", device.name);
         let options = GpuOptions { device: Some(device.uuid), validate: true, tile: Some(100) };
         trials.push(match Gpu::open(&options) {
-            Err(error) => missing(name, error.to_string()),
+            Err(error) => missing(VULKAN, name, error.to_string()),
             Ok(gpu) => Trial::test(name, move || {
                 let grid = grid("nov", "roughness", 32, 16);
                 let (rule, nodes) = finest();
@@ -200,7 +201,7 @@ pub fn validated() -> Vec<Trial> {
 fn spirv_val() -> Trial {
     let name = "every shader passes spirv-val".to_owned();
     if Command::new("spirv-val").arg("--version").output().is_err() {
-        return missing(name, "spirv-val is not installed".into());
+        return missing(VULKAN, name, "spirv-val is not installed".into());
     }
     Trial::test(name, || {
         for lobe in Microfacet::all() {

@@ -13,19 +13,16 @@ pub fn check(arguments: &BakeArgs, jobs: &[Job], depfile: Option<&str>) -> Resul
         files.add("the configuration", config);
     }
     for (name, job) in named(arguments, jobs) {
-        let what = if arguments.config.is_some() {
-            format!("the output of {name}")
-        } else {
-            format!("the {name}")
+        let of_table = |what: &str| match arguments.config {
+            Some(_) => format!("the {what} of {name}"),
+            None => format!("the {what}"),
         };
-        if let Some(other) = files.add(what, &job.output) {
-            let got = format!("{}, which is {other}", job.output);
-            return Err(Error::bad_input(
-                name,
-                "an output of its own",
-                got,
-                "rename one of the two",
-            ));
+        let lookup = job.lookup.as_ref().map(|(file, _)| (of_table("lookup code"), file));
+        for (what, file) in [(of_table("output"), &job.output)].into_iter().chain(lookup) {
+            if let Some(other) = files.add(what, file) {
+                let (expected, got) = ("a file of its own", format!("{file}, which is {other}"));
+                return Err(Error::bad_input(name, expected, got, "rename one of the two"));
+            }
         }
     }
     let Some(depfile) = depfile else { return Ok(()) };

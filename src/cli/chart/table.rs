@@ -8,7 +8,7 @@ use crate::cli::table_args::{FLAGS_OF_FILES, TableArgs};
 use crate::cli::{output, print, resources, usage};
 use crate::error::Result;
 use crate::image::{panels, sequential};
-use crate::lut::Lut;
+use crate::lut::Packing;
 use crate::request::Accuracy;
 use crate::table::precision::Precision;
 
@@ -22,7 +22,7 @@ pub fn run(table: &TableArgs) -> Result<()> {
     let output = table.output.as_deref().unwrap_or(DEFAULT_OUTPUT);
     output::check_picture(output)?;
     // As they are integrated: a storage may not hold what the picture's scale shows.
-    let uncertified = |lut: &Lut| Ok(Accuracy::uncertified(lut, Precision::F64));
+    let uncertified = |packing: &Packing| Ok(Accuracy::uncertified(packing, Precision::F64));
     let request = table.request(Precision::F64, uncertified)?;
     // Of each value the integral, its channel's plane, the same scaled, and three bytes of the
     // picture.

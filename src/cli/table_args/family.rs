@@ -4,7 +4,7 @@ use super::TableArgs;
 use crate::brdf::{Diffuse, Fresnel, Microfacet, Ndf};
 use crate::choice::{Choice, choice};
 use crate::error::{Error, Result};
-use crate::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
+use crate::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut, Packing, terms};
 use crate::units::F0;
 
 /// A family of tables by name.
@@ -26,7 +26,7 @@ choice!(Family, "lut", {
 
 impl TableArgs {
     /// The table; `f0`: that of a table for one.
-    pub(super) fn family(&self, f0: F0) -> Result<Lut> {
+    pub(super) fn family(&self, f0: F0) -> Result<Packing> {
         match self.lut.unwrap_or(Family::Dfg) {
             Family::Dfg => self.dfg(Ndf::Ggx, None),
             Family::Sheen => self.dfg(Ndf::Charlie, Some("e")),
@@ -34,23 +34,26 @@ impl TableArgs {
                 self.check_no_fresnel()?;
                 let channels = self.channels.as_deref().unwrap_or(EnergyChannels::Split.word());
                 let channels = EnergyChannels::named(channels)?;
-                Energy::new(self.lobe(Ndf::Ggx)?, f0, channels).map(Lut::Energy)
+                Energy::new(self.lobe(Ndf::Ggx)?, f0, channels)
+                    .map(|energy| Lut::Energy(energy).into())
             }
             Family::Diffuse => {
                 self.check_no_fresnel()?;
-                self.diffuse().map(Lut::Diffuse)
+                self.diffuse().map(|diffuse| Lut::Diffuse(diffuse).into())
             }
         }
     }
 
     /// The integrals of a specular lobe; without other channels all of them.
-    fn dfg(&self, ndf: Ndf, channels: Option<&str>) -> Result<Lut> {
+    fn dfg(&self, ndf: Ndf, channels: Option<&str>) -> Result<Packing> {
         let (lobe, fresnel) = (self.lobe(ndf)?, self.fresnel.unwrap_or(Fresnel::Schlick));
-        let dfg = match self.channels.as_deref().or(channels) {
-            Some(word) => Dfg::with_channels(lobe, fresnel, word),
-            None => Dfg::new(lobe, fresnel, DfgChannels::All),
+        let Some(words) = self.channels.as_deref().or(channels) else {
+            return Dfg::new(lobe, fresnel, DfgChannels::All).map(|dfg| Lut::Dfg(dfg).into());
         };
-        dfg.map(Lut::Dfg)
+        match Dfg::with_channels(lobe, fresnel, words) {
+            Ok(dfg) => Ok(Lut::Dfg(dfg).into()),
+            Err(_) => terms::packing(lobe, fresnel, words),
+        }
     }
 
     fn diffuse(&self) -> Result<Diffuse> {

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use std::fmt;
 
 /// A table's size as users write it.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(untagged, expecting = "expected a whole number, or text as in \"64x32\"")]
 pub enum Size {
     /// One number for a square.
@@ -16,7 +16,7 @@ pub enum Size {
 }
 
 /// One number or several as users write them.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(untagged, expecting = "expected a number or several, as in [0.02, 0.04]")]
 pub enum Numbers {
     /// One.

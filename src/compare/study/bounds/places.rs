@@ -4,7 +4,7 @@
 use crate::brdf::Microfacet;
 use crate::integrate::interpolant::SMOOTHEST;
 use crate::integrate::rule::CHARLIE_LIMIT;
-use crate::units::{SMALLEST_ALPHA, SMALLEST_COSINE};
+use crate::units::{LARGEST_ALPHA, SMALLEST_ALPHA, SMALLEST_COSINE};
 
 /// A point of the domain.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +20,8 @@ pub struct Places {
     random: Random,
     /// n·v = 0, or the smallest above it where the lobe has no albedo there.
     least_mu: f64,
+    /// The largest α of a texel.
+    most_alpha: f64,
 }
 
 /// 1 - p at the upper end of a coordinate, apart from p = 1 itself: the last number below 1.
@@ -46,9 +48,29 @@ fn coordinate(p: f64, least: f64) -> f64 {
     }
 }
 
+/// The coordinate beyond which α exceeds 1, as on an unclamped axis, and that stretch's length.
+const BEYOND_ONE: (f64, f64) = (1.02, 0.1);
+
+/// α at a coordinate.
+fn alpha_at(c: f64) -> f64 {
+    let beyond = (c - BEYOND_ONE.0) / BEYOND_ONE.1;
+    if beyond > 0.0 {
+        return (1.0 + beyond * (LARGEST_ALPHA - 1.0)).min(LARGEST_ALPHA);
+    }
+    value(c, SMALLEST_ALPHA, SMALLEST_ALPHA)
+}
+
+/// The inverse of [`alpha_at`].
+fn alpha_coordinate(alpha: f64) -> f64 {
+    if alpha > 1.0 {
+        return BEYOND_ONE.0 + (alpha - 1.0) / (LARGEST_ALPHA - 1.0) * BEYOND_ONE.1;
+    }
+    coordinate(alpha, SMALLEST_ALPHA)
+}
+
 impl Place {
     fn coordinates(self) -> [f64; 2] {
-        [coordinate(self.mu, SMALLEST_COSINE), coordinate(self.alpha, SMALLEST_ALPHA)]
+        [coordinate(self.mu, SMALLEST_COSINE), alpha_coordinate(self.alpha)]
     }
 
     /// Whether another place is within a distance along both coordinates.
@@ -64,19 +86,20 @@ impl Places {
         Places {
             random: Random(seed),
             least_mu: if lobe.diverges_at_grazing() { SMALLEST_COSINE } else { 0.0 },
+            most_alpha: lobe.ndf.most_alpha(),
         }
     }
 
     fn at(&self, x: f64, y: f64) -> Place {
         Place {
             mu: value(x, SMALLEST_COSINE, self.least_mu),
-            alpha: value(y, SMALLEST_ALPHA, SMALLEST_ALPHA),
+            alpha: alpha_at(y).min(self.most_alpha),
         }
     }
 
     fn within(&self, mu: f64, alpha: f64) -> Place {
         let mu = if mu < SMALLEST_COSINE { self.least_mu } else { mu.min(1.0) };
-        Place { mu, alpha: alpha.clamp(SMALLEST_ALPHA, 1.0) }
+        Place { mu, alpha: alpha.clamp(SMALLEST_ALPHA, self.most_alpha) }
     }
 
     /// The i-th start: crowded at all edges, spread like a table's texels, or where the integrals
@@ -88,8 +111,8 @@ impl Places {
         let (crowded, few) = (self.at(x, y), libm::exp10(self.random.between(-3.0, 3.0)));
         match i % 8 {
             0..3 => crowded,
-            3 => self.within(u, r * r),
-            4 => self.within(crowded.mu, r * r),
+            3 => self.within(u, self.most_alpha * r * r),
+            4 => self.within(crowded.mu, self.most_alpha * r * r),
             // n·v ~ α, where shadows begin; n·v ~ √α, where Charlie's ring touches the horizon; sin
             // θ_v ~ α, where a lobe stands around the normal.
             5 if u < 0.5 => self.within(crowded.alpha * few, crowded.alpha),
