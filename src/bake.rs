@@ -64,11 +64,12 @@ impl Plan<'_> {
         let count = packings.len() * layout.values_of_slice();
         let mut values = Packed::zeros(request.precision(), count)?;
         let size = layout.values_of_slice() * request.precision().bytes();
-        let (mut parts, mut reports) = (Vec::new(), Vec::new());
+        let (mut parts, mut reports, mut rounding) = (Vec::new(), Vec::new(), 0.0f64);
         let slices = packings.iter().zip(values.bytes_mut().chunks_exact_mut(size));
         for (index, (packing, bytes)) in slices.enumerate() {
             let slice = Slice { plan: self, packing, progress };
-            let outcomes = slice.bake(bytes)?;
+            let (outcomes, coarser) = slice.bake(bytes)?;
+            rounding = rounding.max(request.precision().half_step() + coarser);
             let several = outcomes.len() > 1;
             let mut of_slice = Vec::new();
             for (part, Outcome { claim, stages, checks, computed, seconds }) in outcomes {
@@ -89,7 +90,7 @@ impl Plan<'_> {
             }
             parts.push(of_slice);
         }
-        let table = Table::new(layout.clone(), values, parts, request.to_string())?;
+        let table = Table::new(layout.clone(), values, parts, rounding, request.to_string())?;
         Ok(Baked { table, reports })
     }
 }
@@ -112,7 +113,11 @@ struct Outcome {
 
 impl Slice<'_> {
     /// Fills in the bytes of the slice, part by part.
-    fn bake(&self, bytes: &mut [u8]) -> Result<Vec<(Part, Outcome)>> {
+    ///
+    /// Also returns by how much storing a value errs more than [`Precision::half_step`].
+    ///
+    /// [`Precision::half_step`]: crate::table::precision::Precision::half_step
+    fn bake(&self, bytes: &mut [u8]) -> Result<(Vec<(Part, Outcome)>, f64)> {
         let Plan { request, parts, .. } = self.plan;
         let precision = request.precision();
         let mut sheet = Sheet::new(self.packing, request.grid(), precision, bytes);
@@ -137,8 +142,11 @@ impl Slice<'_> {
                 }
                 Claim::Uncertified { .. } | Claim::Estimated { .. } => (),
             }
+            if let Some(checks) = &mut outcome.checks {
+                checks.rounding += coarser;
+            }
         }
-        Ok(outcomes)
+        Ok((outcomes, coarser))
     }
 
     /// The bands of the grid, each with the row of the grid at which it begins.
@@ -159,7 +167,7 @@ struct PartOfSlice<'a> {
 impl PartOfSlice<'_> {
     /// The device and its rule; none where the CPU does the part.
     fn device(&self) -> Option<(&Gpu, Rule)> {
-        self.slice.plan.device.zip(self.plan.device_rule)
+        self.slice.plan.device.zip(self.plan.device_rule.as_ref().ok().copied())
     }
 
     fn computed(&self, device_seconds: Option<f64>) -> Computed {
@@ -172,7 +180,8 @@ impl PartOfSlice<'_> {
             },
             (None, None) => Computed::Cpu { reason: plan.reason.clone() },
             (Some(_), None) => {
-                Computed::Cpu { reason: Some("it has nothing to integrate there".into()) }
+                let obstacle = self.plan.device_rule.as_ref().err();
+                Computed::Cpu { reason: obstacle.map(ToString::to_string) }
             }
         }
     }
@@ -312,19 +321,21 @@ impl PartOfSlice<'_> {
         averages: &[Vec<Ball>],
     ) -> (Vec<f64>, f64) {
         let (part, precision) = (self.part, self.slice.plan.request.precision());
-        // Where no channel is negative or exceeds 1, an estimate that is or does is nearer to the
-        // truth at that end.
-        let (at_most_one, nonnegative) = (part.at_most_one(), part.nonnegative());
         let count = part.count();
         let (mut values, mut worst) = (Vec::with_capacity(points.len() * count), 0.0f64);
         for (i, integrals) in points.iter().enumerate() {
             let (mu, alpha) = band.point(i);
             let integrals = integration.within_bound(alpha, integrals, 0.0);
             let channels = part.values(mu, &integrals, &averages[i / band.mus.len()]);
-            for Ball { value, error } in channels.into_iter().take(count) {
+            for (Ball { value, error }, &(low, high)) in
+                channels.into_iter().zip(part.ranges()).take(count)
+            {
                 worst = worst.max(error / value.abs().max(1.0));
-                let allowed = |known: bool| if known { error } else { 0.0 };
-                let value = precision.pulled_in(value, allowed(nonnegative), allowed(at_most_one));
+                // An estimate that the storage does not hold, beyond what the channel can be.
+                let beyond =
+                    value < low && value + error >= low || value > high && value - error <= high;
+                let held = precision.holds(precision.nearest(value));
+                let value = if beyond && !held { value.clamp(low, high) } else { value };
                 values.push(precision.stored(value));
             }
         }

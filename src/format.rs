@@ -51,6 +51,17 @@ pub struct Format {
     write: fn(&Texels, &mut dyn WriteSeek) -> Result<()>,
 }
 
+/// All storages of files.
+const ALL: &[Precision] = &[
+    Precision::F16,
+    Precision::F32,
+    Precision::Unorm16,
+    Precision::Unorm8,
+    Precision::A2b10g10r10,
+    Precision::Srgb8,
+    Precision::Rgbd8,
+];
+
 /// All formats, the default one first.
 pub const FORMATS: &[Format] = &[
     #[cfg(feature = "exr")]
@@ -80,15 +91,7 @@ pub const FORMATS: &[Format] = &[
     Format {
         extension: "ktx2",
         about: "KTX2, a texture as GPUs take it, with the metadata",
-        precisions: &[
-            Precision::F16,
-            Precision::F32,
-            Precision::Unorm16,
-            Precision::Unorm8,
-            Precision::A2b10g10r10,
-            Precision::Srgb8,
-            Precision::Rgbd8,
-        ],
+        precisions: ALL,
         components: &[1, 2, 4],
         fewest: 1,
         slices: true,
@@ -98,15 +101,7 @@ pub const FORMATS: &[Format] = &[
     Format {
         extension: "dds",
         about: "DirectDraw Surface with the header of Direct3D 10",
-        precisions: &[
-            Precision::F16,
-            Precision::F32,
-            Precision::Unorm16,
-            Precision::Unorm8,
-            Precision::A2b10g10r10,
-            Precision::Srgb8,
-            Precision::Rgbd8,
-        ],
+        precisions: ALL,
         components: &[1, 2, 4],
         // Most readers refuse fewer: on request.
         fewest: 4,
@@ -134,15 +129,7 @@ pub const FORMATS: &[Format] = &[
     Format {
         extension: "raw",
         about: "the texels alone, little-endian, row by row",
-        precisions: &[
-            Precision::F16,
-            Precision::F32,
-            Precision::Unorm16,
-            Precision::Unorm8,
-            Precision::A2b10g10r10,
-            Precision::Srgb8,
-            Precision::Rgbd8,
-        ],
+        precisions: ALL,
         components: &[1, 2, 3, 4],
         fewest: 1,
         slices: true,
@@ -190,15 +177,7 @@ pub const FORMATS: &[Format] = &[
 const CODE: Format = Format {
     extension: "",
     about: "",
-    precisions: &[
-        Precision::F16,
-        Precision::F32,
-        Precision::Unorm16,
-        Precision::Unorm8,
-        Precision::A2b10g10r10,
-        Precision::Srgb8,
-        Precision::Rgbd8,
-    ],
+    precisions: ALL,
     components: &[1, 2, 3, 4],
     fewest: 1,
     slices: true,

@@ -83,16 +83,35 @@ struct Third {
     place: fn(&Lookup, &Words) -> String,
 }
 
+/// Words that one of the languages has, and names in the code itself.
+#[rustfmt::skip]
+const TAKEN: [&str; 120] = [
+    "as", "asm", "auto", "await", "bool", "break", "case", "catch", "char", "class", "const",
+    "constant", "continue", "default", "delete", "device", "discard", "do", "double", "else",
+    "enum", "export", "extern", "false", "final", "float", "float2", "float3", "float4", "fn",
+    "for", "function", "goto", "half", "if", "impl", "import", "in", "inline", "inout", "int",
+    "kernel", "let", "long", "loop", "match", "mod", "move", "mut", "namespace", "new", "null",
+    "operator", "out", "package", "private", "protected", "pub", "public", "ref", "register",
+    "return", "sampler", "self", "short", "signed", "sizeof", "static", "struct", "super",
+    "switch", "template", "texture", "this", "thread", "throw", "trait", "true", "try", "type",
+    "typedef", "uint", "uniform", "union", "unsafe", "unsigned", "use", "using", "var", "vec2",
+    "vec3", "vec4", "vertex", "void", "volatile", "where", "while", "with", "yield",
+    "at", "between", "channels", "components", "depth", "exact", "filtered", "height", "nov",
+    "numbers", "place", "roughness", "share", "table", "texel", "uv", "weight", "width", "main",
+    "fragment", "memcpy",
+];
+
 /// Refuses a name that is none in every language.
 pub fn check_name(what: &str, name: &str) -> Result<()> {
     let letter = |c: char| c.is_ascii_alphabetic();
     let follows = |c: char| c.is_ascii_alphanumeric() || c == '_';
     // Languages reserve what begins with an underscore or has two.
     let is_name = name.starts_with(letter) && name.chars().all(follows);
-    if is_name && name.len() <= 64 && !name.contains("__") {
+    if is_name && name.len() <= 64 && !name.contains("__") && !TAKEN.contains(&name) {
         return Ok(());
     }
-    let expected = "a letter, then letters, digits and single underscores, 64 at the most";
+    let expected = "a letter, then letters, digits and single underscores, 64 at the most, and no \
+                    word of a language or of the code";
     Err(Error::bad_input(what, expected, format!("'{name}'"), "rename it"))
 }
 
@@ -157,7 +176,8 @@ impl Lookup<'_> {
 
     /// The third argument, where there are slices.
     fn third(&self) -> Option<Third> {
-        let slices = self.layout.slices.as_ref()?;
+        // A file of one slice is like one without slices.
+        let slices = self.layout.slices.as_ref().filter(|slices| slices.count() > 1)?;
         Some(match slices.axis() {
             Some(_) => Third { name: "f0", place: place::along_slices },
             None => Third { name: "slice", place: |_, _| "slice".into() },

@@ -90,6 +90,7 @@ pub struct Table {
     values: Packed,
     /// Slice by slice; each has at least one.
     parts: Vec<Vec<Part>>,
+    rounding: f64,
     command: String,
 }
 
@@ -119,6 +120,7 @@ impl Table {
         layout: Layout,
         values: Packed,
         parts: Vec<Vec<Part>>,
+        rounding: f64,
         command: String,
     ) -> Result<Self> {
         let slices = layout.slice_count();
@@ -128,7 +130,7 @@ impl Table {
                 "a table whose values and claims do not fit its layout".into(),
             ));
         }
-        Ok(Table { layout, values, parts, command })
+        Ok(Table { layout, values, parts, rounding, command })
     }
 
     /// Axes, slices and channels.
@@ -165,6 +167,11 @@ impl Table {
     /// How far the numbers of a slice's main part are from the truth.
     pub fn claim(&self, slice: usize) -> &Claim {
         &self.parts[slice][0].claim
+    }
+
+    /// The largest error of storing one of its values in [-1, 1].
+    pub fn rounding(&self) -> f64 {
+        self.rounding
     }
 
     /// The command that repeats the bake.

@@ -22,8 +22,8 @@ pub struct Ior(f64);
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct F0(f64);
 
-/// The largest α of a texel of an unclamped axis (roughness 1.06): models and the bounds of rules
-/// were searched up to there. Half a texel beyond roughness 1, as in Godot's table, is α = 1.0078.
+/// The largest α of a texel of an unclamped axis (roughness 1.06): the bounds of GGX's rules are
+/// searched up to there. Half a texel beyond roughness 1, as in Godot's table, is α = 1.0078.
 pub const LARGEST_ALPHA: f64 = 1.125;
 
 /// α below this and above 0 is refused: α² must stay a normal number in f32. It is r = 5e-10.

@@ -53,11 +53,14 @@ fn the_curve_of_srgb_is_the_standards_and_codes_are_the_nearest() {
         let half = Precision::Srgb8.half_step();
         assert!(held || value > 1.0 + half || value < 0.0, "{value}");
         assert!(!held || (Precision::Srgb8.nearest(value) - value).abs() <= 1.000_001 * half);
-        let boundary = Precision::Srgb8.distance_to_boundary(value.clamp(0.0, 1.0));
-        let moved = value.clamp(0.0, 1.0) + 1.01 * boundary.max(1e-12);
-        let back = value.clamp(0.0, 1.0) - 1.01 * boundary.max(1e-12);
-        let here = srgb::code(value.clamp(0.0, 1.0));
-        assert!(boundary.is_infinite() || srgb::code(moved) != here || srgb::code(back) != here);
+        // Short of the boundary the code is the same on both sides, and beyond it is another on one.
+        let inside = value.clamp(0.0, 1.0);
+        let boundary = Precision::Srgb8.distance_to_boundary(inside);
+        let at =
+            |share: f64| [inside - share * boundary, inside + share * boundary].map(srgb::code);
+        let here = srgb::code(inside);
+        assert_eq!(at(0.99), [here; 2], "{inside}");
+        assert!(at(1.01).iter().any(|code| *code != here), "{inside}");
     }
 }
 

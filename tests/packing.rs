@@ -97,6 +97,31 @@ fn a_list_that_is_a_table_is_that_table() {
 }
 
 #[test]
+fn an_estimate_beyond_what_a_channel_can_be_is_stored_at_that_end() {
+    // 1 - E of smooth rows is 0 to within the rules' errors, on either side of it.
+    for precision in [Precision::Unorm8, Precision::Rgbd8, Precision::F32] {
+        let packing = packing("1-e,e,charlie*0.01", Fresnel::Schlick).unwrap();
+        let (x, y) = ("nov,edges".parse().unwrap(), "roughness,edges".parse().unwrap());
+        let axis = |spec| splitsum::table::axis::Axis::new(spec, 33).unwrap();
+        let accuracy = splitsum::request::Accuracy::by_default(&packing, precision);
+        let request = Request::new(packing.clone(), axis(x), axis(y), accuracy, precision);
+        let table = splitsum::bake(&request.unwrap(), &Backend::cpu()).unwrap().table;
+        assert!(table.plane(0, 0).iter().all(|value| *value >= 0.0), "{precision}");
+        // The same by a rule that errs by 1e-2.
+        let rough = splitsum::request::Accuracy::Tolerance(6e-2);
+        let request = Request::new(packing, axis(x), axis(y), rough, precision).unwrap();
+        assert!(splitsum::bake(&request, &Backend::cpu()).is_ok(), "{precision}");
+    }
+}
+
+#[test]
+fn two_maskings_of_one_lobe_have_two_names() {
+    let packing = packing("charlie,charlie/height-correlated", Fresnel::Schlick).unwrap();
+    let names: Vec<String> = packing.channels().into_iter().map(|channel| channel.name).collect();
+    assert_eq!(names, ["E", "E_charlie_height-correlated"]);
+}
+
+#[test]
 fn wrong_lists_are_refused() {
     for words in [
         "",
@@ -152,8 +177,7 @@ fn what_does_not_fit_its_storage_is_an_error_and_names_the_channel() {
 }
 
 #[test]
-fn a_device_does_what_it_can_and_the_cpu_the_rest() {
-    // The plan alone: no device is opened for so little.
+fn a_plan_says_which_rules_decide_which_channels() {
     let packing = packing("b,e,burley", Fresnel::Schlick).unwrap();
     let request = Request::with_default_axes(packing, SIZE, Precision::F16).unwrap();
     let backend = Backend::cpu();

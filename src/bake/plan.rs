@@ -32,14 +32,15 @@ pub(super) struct PartPlan {
     /// The rules of the CPU: the stages of a certification, or the one rule of a table that is not
     /// certified.
     pub rules: Vec<Rule>,
-    /// The rule of a device; none where a device cannot do the part.
-    pub device_rule: Option<Rule>,
+    /// The rule of a device, or the reason why a device cannot do the part.
+    pub device_rule: std::result::Result<Rule, Complaint>,
 }
 
 impl PartPlan {
     /// The one rule of a table that is not certified.
     pub fn rule(&self, on_device: bool) -> Option<Rule> {
-        self.device_rule.filter(|_| on_device).or(self.rules.first().copied())
+        let on_device = self.device_rule.as_ref().ok().filter(|_| on_device);
+        on_device.or(self.rules.first()).copied()
     }
 }
 
@@ -61,24 +62,18 @@ const WORKING_BYTES: usize = 128;
 impl<'a> Plan<'a> {
     /// The plan for a request on a backend; an error where the backend is ruled out.
     pub fn new(request: &'a Request, backend: &'a Backend) -> Result<Self> {
-        let (mut parts, mut obstacles, mut saved) = (Vec::new(), Vec::new(), 0.0);
+        let (mut parts, mut saved) = (Vec::new(), 0.0);
         for part in request.packing().parts() {
             let rules = rules(request, &part)?;
-            let device_rule = match device_rule(request, &part) {
-                Ok(rule) => {
-                    saved += seconds_saved(request, &part, &rules);
-                    Some(rule)
-                }
-                Err(obstacle) => {
-                    obstacles.push(obstacle);
-                    None
-                }
-            };
+            let device_rule = device_rule(request, &part);
+            if device_rule.is_ok() {
+                saved += seconds_saved(request, &part, &rules);
+            }
             parts.push(PartPlan { part, rules, device_rule });
         }
         // The CPU does what a device cannot, as long as something is left for the device.
-        let obstacle = obstacles.into_iter().next();
-        let obstacle = obstacle.filter(|_| parts.iter().all(|part| part.device_rule.is_none()));
+        let all_refused = parts.iter().all(|part| part.device_rule.is_err());
+        let obstacle = parts[0].device_rule.as_ref().err().filter(|_| all_refused).cloned();
         let Chosen { gpu, reason } = backend.choose(obstacle, saved)?;
         Ok(Plan { request, parts, device: gpu, reason })
     }
@@ -91,7 +86,7 @@ impl<'a> Plan<'a> {
 
     /// The device and its rule for the main part; none where the CPU does it all.
     pub fn device(&self) -> Option<(&Gpu, Rule)> {
-        self.device.zip(self.parts[0].device_rule)
+        self.device.zip(self.parts[0].device_rule.as_ref().ok().copied())
     }
 
     /// The reason for the device or for the CPU, where there was a choice.
@@ -218,7 +213,7 @@ impl Plan<'_> {
         };
         match self.request.accuracy() {
             Accuracy::Rounded | Accuracy::Within(_) => {
-                let device = plan.device_rule.filter(|_| self.device.is_some());
+                let device = plan.device_rule.as_ref().ok().filter(|_| self.device.is_some());
                 let device = device.iter().map(|rule| format!("{} on the device", rule.name));
                 let on_cpu = plan.rules.iter().map(|rule| rule.name.to_owned());
                 let stages = device.chain(on_cpu).collect::<Vec<_>>().join(", then ");

@@ -83,12 +83,12 @@ impl Ndf {
         self.definition().maskings[0]
     }
 
-    /// The largest α at which it has a meaning and its rules were searched: Blinn-Phong's exponent
-    /// would be negative above 1, and Charlie's Λ was fitted below.
+    /// The largest α up to which its rules were searched. Beyond 1 only GGX's were, which an engine
+    /// needs; Blinn-Phong's exponent would be negative there, and Charlie's Λ was fitted below.
     pub fn most_alpha(self) -> f64 {
         match self {
-            Ndf::Ggx | Ndf::Beckmann | Ndf::BeckmannWalter => LARGEST_ALPHA,
-            Ndf::BlinnPhong | Ndf::Charlie => 1.0,
+            Ndf::Ggx => LARGEST_ALPHA,
+            Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong | Ndf::Charlie => 1.0,
         }
     }
 

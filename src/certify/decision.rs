@@ -16,7 +16,8 @@ pub struct Task<'a> {
     pub grid: &'a Grid,
     /// Its storage.
     pub precision: Precision,
-    /// The largest error of an integral stored in f32; of no account for other storages.
+    /// The largest error of an integral stored within a tolerance; of no account for storages that
+    /// are rounded once.
     pub tolerance: f64,
 }
 
@@ -34,15 +35,16 @@ impl Task<'_> {
         values: &mut [f64],
     ) -> (bool, f64) {
         let (mut decided, mut worst) = (true, 0.0f64);
-        for (stored, channel) in values.iter_mut().zip(self.lut.values(mu, integrals, averages)) {
+        let channels = self.lut.values(mu, integrals, averages);
+        for ((stored, channel), range) in values.iter_mut().zip(channels).zip(self.lut.ranges()) {
             decided &=
                 self.precision.nearest(channel.low()) == self.precision.nearest(channel.high());
             // A division is costly, and values above 1 are few.
             let size = channel.value.abs();
             worst = worst.max(if size > 1.0 { channel.error / size } else { channel.error });
-            // An estimate near 0 may be negative where no channel is.
-            let negative = channel.value < 0.0 && channel.high() >= 0.0 && self.lut.nonnegative();
-            let value = if negative { 0.0 } else { channel.value };
+            // An estimate near the least that a channel can be, such as 0, may lie below.
+            let below = channel.value < range.0 && channel.high() >= range.0;
+            let value = if below { range.0 } else { channel.value };
             // Adding 0 makes 0 of -0.
             *stored = self.precision.stored(value) + 0.0;
         }

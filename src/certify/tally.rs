@@ -75,8 +75,9 @@ impl Tally {
             rounded.into()
         } else {
             format!(
-                "{rounded}; but {undecided} texels, with a value as near to a boundary of rounding \
-                 as {at_most} (of values above 1 relative), may be the other nearest"
+                "{rounded}; but {undecided} texels hold a value that is known to within {at_most} \
+                 only (of values above 1 relative) and may be rounded to a neighbour, or farther \
+                 where steps are finer"
             )
         };
         Ok(Certificate {

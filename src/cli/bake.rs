@@ -132,14 +132,11 @@ fn print_plans(jobs: &[Job], backend: &Backend) -> Result<()> {
 fn bake(job: &Job, backend: &Backend, arguments: &BakeArgs) -> Result<Vec<Baked>> {
     let Job { request, encoding, output, lookup } = job;
     let plan = Plan::new(request, backend)?;
-    let progress = Progress::new(output, request.texels(), arguments.quiet);
+    let texels = request.texels() * request.packing().luts().len();
+    let progress = Progress::new(output, texels, arguments.quiet);
     let baked = plan.bake(&|texels| progress.advance(texels))?;
     drop(progress);
     output::write_with(output, &mut |file| encoding.write(&baked.table, file))?;
-    if let Some((name, language)) = lookup {
-        let code = super::lookup::code(job, *language, &[], DEFAULT_PREFIX)?;
-        output::write(name, code.as_bytes())?;
-    }
     if !arguments.quiet && !arguments.json {
         let name = if output == "-" { "standard output" } else { output };
         for report in &baked.reports {
@@ -154,6 +151,13 @@ fn bake(job: &Job, backend: &Backend, arguments: &BakeArgs) -> Result<Vec<Baked>
                 std::io::stderr(),
                 "wrote     {name}{slice}{channels}: {width} x {height}\n{report}"
             );
+        }
+    }
+    if let Some((name, language)) = lookup {
+        let code = super::lookup::code(job, *language, &[], DEFAULT_PREFIX)?;
+        output::write(name, code.as_bytes())?;
+        if !arguments.quiet && !arguments.json {
+            let _ = writeln!(std::io::stderr(), "wrote     {name}: lookup code");
         }
     }
     Ok(baked.reports.into_iter().map(|report| Baked { output: output.clone(), report }).collect())

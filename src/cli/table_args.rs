@@ -48,8 +48,8 @@ pub struct TableArgs {
     fresnel: Option<Fresnel>,
     /// Channels: a name, or up to four terms of dfg with commas between, for example b,e,charlie:
     /// a, b, c, e, 1-e, a_avg, b_avg, e_avg; another lobe's E, as in charlie, charlie/neubelt or
-    /// burley; nov, roughness or a number; each with *SCALE and +OFFSET or -OFFSET behind it
-    /// [default: all integrals for dfg, e for sheen, split for energy]
+    /// burley; nov, roughness or a number; each but 1-e and a number with *SCALE and +OFFSET or
+    /// -OFFSET behind it [default: all integrals for dfg, e for sheen, split for energy]
     #[arg(long, value_name = "NAME|TERM[,TERM...]", value_parser = choices::channels())]
     channels: Option<String>,
     /// Reflectance at normal incidence, for the split of energy; several, with commas between, are
@@ -84,9 +84,9 @@ pub struct TableArgs {
     /// Storage of the values [default: the first for the format]
     #[arg(long, value_name = "NAME", value_parser = choices::precision())]
     precision: Option<Precision>,
-    /// on certifies every value: rounded correctly, or in f32 within the tolerance, the same on
-    /// every backend; off stores the values of a rule, checked on a sample [default: on; off where
-    /// a rule is named]
+    /// on certifies every value: rounded correctly, or in f32 and rgbd8 within the tolerance, the
+    /// same on every backend; off stores the values of a rule, checked on a sample [default: on;
+    /// off where a rule is named]
     #[arg(
         long,
         value_name = "on|off",
@@ -95,8 +95,8 @@ pub struct TableArgs {
     )]
     certify: Option<Switch>,
     /// Largest absolute error of an integral, 1e-13 to 0.1, where its values are stored in f32 or
-    /// not certified [default: 1e-6 for f32 and unorm16, 1.5e-5 for f16, 1e-4 for unorm8; more for
-    /// models of which a device keeps less]
+    /// rgbd8 or not certified [default: 1e-6 for f32, rgbd8 and unorm16, 1e-5 for srgb8, 1.5e-5 for
+    /// f16, 3e-5 for a2b10g10r10, 1e-4 for unorm8; more for models of which a device keeps less]
     #[arg(long, value_name = "ERROR", conflicts_with = "rule", allow_hyphen_values = true)]
     tolerance: Option<f64>,
     /// Store the values of this quadrature rule, not certified; those that begin with h run on

@@ -37,14 +37,13 @@ type Array = fn(Element, &str, usize, &str) -> String;
 
 /// C and C++.
 pub fn h(texels: &Texels, file: &mut dyn WriteSeek) -> Result<()> {
-    let guard = format!("{}_H", names(texels).1.to_uppercase());
-    let head = format!("#ifndef {guard}\n#define {guard}\n\n");
     let includes = "#include <math.h>\n#include <stdint.h>\n#include <string.h>\n\n";
     let array: Array = |element, name, length, members| {
         let kind = ["uint8_t", "uint16_t", "uint32_t", "float"][place(element)];
         format!("static const {kind} {name}[{length}] = {{\n{members}\n}};\n")
     };
-    let parts = [&head, includes, "\n#endif\n"];
+    // Two headers of tables with the same names clash, where guards would hide one.
+    let parts = ["#pragma once\n\n", includes, ""];
     write(texels, file, Some(Language::C), stored(texels), array, parts)
 }
 
@@ -245,7 +244,7 @@ fn about(texels: &Texels) -> Vec<String> {
                     format!("certified: {}; BLAKE3 {}", certificate.promise, certificate.blake3)
                 }
                 Claim::Estimated { estimator, measured_error: (error, _) } => {
-                    format!("not certified: by {estimator}, off by {error:.1e} where measured")
+                    format!("not certified: by {estimator}, its integrals off by {error:.1e}")
                 }
                 Claim::Uncertified { rule, error_bound, .. } => {
                     format!("not certified: by rule {rule}, within {error_bound:.1e}")

@@ -38,7 +38,7 @@ pub enum Supercompress {
 
 choice!(Supercompress, "supercompress", {
     None = "none", "none: every reader reads it";
-    Zstd = "zstd", "Zstandard: about a sixth smaller";
+    Zstd = "zstd", "Zstandard: a little smaller";
 });
 
 /// How source code has numbers.
@@ -162,7 +162,8 @@ fn components(
         (Some(count), None) => Ok(count),
         (Some(count), Some(wanted)) if count == wanted => Ok(count),
         _ => {
-            let known = format.components.iter().filter(|count| **count >= channels);
+            let least = if whole { 4 } else { channels };
+            let known = format.components.iter().filter(|count| **count >= least);
             let known: Vec<String> = known.map(usize::to_string).collect();
             let expected = match known.is_empty() {
                 true => format!(

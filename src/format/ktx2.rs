@@ -174,7 +174,7 @@ fn key_values(texels: &Texels) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The texels as one frame of Zstandard, which states their number of bytes.
+/// The texels as one frame of Zstandard; their number of bytes stands in the file's index.
 fn compressed(texels: &Texels) -> Result<Vec<u8>> {
     let mut level = Cursor::new(Vec::new());
     raw::write(texels, &mut level)?;

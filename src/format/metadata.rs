@@ -22,6 +22,9 @@ struct Metadata<'a> {
     claim: &'a Claim,
     command: String,
     channels: Vec<String>,
+    /// The components that the claim is of, where there are others.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    claimed: Vec<&'a str>,
     /// The parts besides the main one.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     others: Vec<Other<'a>>,
@@ -75,13 +78,14 @@ impl AxisText {
     }
 }
 
+/// The components that a part fills.
+fn named<'a>(part: &Part, names: &[&'a str]) -> Vec<&'a str> {
+    part.channels.iter().filter_map(|&place| names.get(place).copied()).collect()
+}
+
 impl<'a> Other<'a> {
     fn new(part: &'a Part, names: &[&'a str]) -> Self {
-        Other {
-            channels: part.channels.iter().filter_map(|&place| names.get(place).copied()).collect(),
-            provenance: &part.provenance,
-            claim: &part.claim,
-        }
+        Other { channels: named(part, names), provenance: &part.provenance, claim: &part.claim }
     }
 }
 
@@ -99,6 +103,10 @@ pub fn metadata(texels: &Texels, slice: usize) -> Result<String> {
         claim: &main.claim,
         command: texels.command(),
         channels: texels.about_components(),
+        claimed: match main.channels.len() == table.channels().len() {
+            true => Vec::new(),
+            false => named(main, names),
+        },
         others: others.iter().map(|part| Other::new(part, names)).collect(),
         x: AxisText::new(table.x()),
         y: AxisText::new(table.y()),
@@ -124,8 +132,8 @@ pub fn metadata(texels: &Texels, slice: usize) -> Result<String> {
             }
         },
         stored: precision,
-        rounding: "to nearest, ties to even",
-        rounding_error: precision.half_step(),
+        rounding: precision.rounding(),
+        rounding_error: table.rounding(),
     };
     let json = serde_json::to_string(&metadata)
         .map_err(|error| Error::Internal(format!("metadata: {error}")))?;

@@ -67,9 +67,9 @@ impl Host {
     }
 
     /// The value of component `c` of the texel whose first element is at `at`, as an expression.
-    fn value(&self, lookup: &Lookup, component: &str) -> String {
+    fn value(&self, lookup: &Lookup, table: &str, component: &str) -> String {
         let number = self.words.number;
-        let element = |index: &str| format!("table[at + {index}]");
+        let element = |index: &str| format!("{table}[at + {index}]");
         let unit = |most: f64| format!("{} / {}", (self.float)(&element(component)), number(most));
         match lookup.precision {
             Precision::F32 | Precision::F64 if lookup.by_bits => {
@@ -81,7 +81,7 @@ impl Host {
             Precision::Unorm16 => unit(65535.0),
             Precision::Unorm8 => unit(255.0),
             Precision::A2b10g10r10 => {
-                let bits = format!("table[at] >> (10 * {component}) & 1023");
+                let bits = format!("{table}[at] >> (10 * {component}) & 1023");
                 format!("{} / {}", (self.float)(&bits), number(1023.0))
             }
             Precision::Srgb8 => format!("{}({})", lookup.prefixed("linear"), unit(255.0)),
@@ -177,11 +177,9 @@ pub fn c(lookup: &Lookup, fields: &[Field], store: Store) -> String {
         .iter()
         .map(|field| format!("    numbers.{} = {};\n", field.name, host.field(field)))
         .collect();
-    let (parameter, local) = match store {
-        Store::Passed => (format!("const {element} *table, "), String::new()),
-        Store::Above => {
-            (String::new(), format!("    const {element} *table = {};\n", lookup.array))
-        }
+    let (parameter, table) = match store {
+        Store::Passed => (format!("const {element} *table, "), "table"),
+        Store::Above => (String::new(), lookup.array),
     };
     // What slices add.
     let [k, behind, share, slice] = match depth {
@@ -200,7 +198,7 @@ pub fn c(lookup: &Lookup, fields: &[Field], store: Store) -> String {
         "
 // In full precision: the texels around a place, each by its share.
 static inline {numbers} {prefix}_exact({parameter}float nov, float roughness{third}) {{
-{local}{places}    int i = (int)x, j = (int)y;
+{places}    int i = (int)x, j = (int)y;
 {k}    float texel[{stored}] = {{0}};
     for (int corner = 0; corner < {corners}; ++corner) {{
         int right = corner & 1, below = corner >> 1 & 1{behind};
@@ -225,7 +223,7 @@ static inline void {prefix}_uv(float nov, float roughness, float uv[2]) {{
 ",
         stored = stored(lookup),
         corners = if depth > 1 { 8 } else { 4 },
-        value = host.value(lookup, "c"),
+        value = host.value(lookup, table, "c"),
         u = place::uv(&lookup.layout.x, &host.words),
         v = place::uv(&lookup.layout.y, &host.words),
     );
@@ -243,7 +241,7 @@ pub fn rust(lookup: &Lookup, fields: &[Field], store: Store) -> String {
         .collect();
     let _ = write!(
         code,
-        "\n/// The numbers of a lookup.\n#[allow(non_snake_case, reason = \"these are their names\")]\n\
+        "\n/// The numbers of a lookup.\n#[allow(non_snake_case, non_camel_case_types, reason = \"these are their names\")]\n\
          #[derive(Clone, Copy, Debug, Default, PartialEq)]\npub struct {numbers} {{\n{members}}}\n"
     );
     code += &RUST_DECODERS.of(lookup);
@@ -268,18 +266,20 @@ pub fn rust(lookup: &Lookup, fields: &[Field], store: Store) -> String {
         .iter()
         .map(|field| format!("    numbers.{} = {};\n", field.name, host.field(field)))
         .collect();
-    let (parameter, local) = match store {
-        Store::Passed => (format!("table: &[{element}], "), String::new()),
-        Store::Above => {
-            (String::new(), format!("    let table: &[{element}] = &{};\n", lookup.array))
-        }
+    let (parameter, table) = match store {
+        Store::Passed => (format!("table: &[{element}], "), "table"),
+        Store::Above => (String::new(), lookup.array),
+    };
+    let allowed = match prefix.to_lowercase() == prefix {
+        true => "",
+        false => "#[allow(non_snake_case, reason = \"it begins with the array's name\")]\n",
     };
     let _ = write!(
         code,
         "
 /// In full precision: the texels around a place, each by its share.
-pub fn {prefix}_exact({parameter}nov: f32, roughness: f32{third}) -> {numbers} {{
-{local}{places}    let (i, j) = (x as usize, y as usize);
+{allowed}pub fn {prefix}_exact({parameter}nov: f32, roughness: f32{third}) -> {numbers} {{
+{places}    let (i, j) = (x as usize, y as usize);
 {k}    let share = |weight: f32, far: usize| if far == 1 {{ weight }} else {{ 1.0 - weight }};
     let mut texel = [0.0f32; {stored}];
     for corner in 0..{corners} {{
@@ -296,7 +296,7 @@ pub fn {prefix}_exact({parameter}nov: f32, roughness: f32{third}) -> {numbers} {
 }}
 
 /// The texture coordinate for a sampler that is linear and clamps to the edge.
-pub fn {prefix}_uv(nov: f32, roughness: f32) -> [f32; 2] {{
+{allowed}pub fn {prefix}_uv(nov: f32, roughness: f32) -> [f32; 2] {{
     [{u}, {v}]
 }}
 ",
@@ -305,7 +305,7 @@ pub fn {prefix}_uv(nov: f32, roughness: f32) -> [f32; 2] {{
         width = lookup.layout.x.size() - 1,
         height = lookup.layout.y.size() - 1,
         at = index(lookup),
-        value = host.value(lookup, "c"),
+        value = host.value(lookup, table, "c"),
         u = place::uv(&lookup.layout.x, &host.words),
         v = place::uv(&lookup.layout.y, &host.words),
     );
@@ -363,6 +363,7 @@ const RUST_DECODERS: Decoders = Decoders {
     half: "
 /// The value of a half: its exponent is moved from a bias of 15 to one of 127 by a product, which
 /// makes normal numbers of subnormal ones too.
+#[allow(non_snake_case, reason = \"it begins as the others do\")]
 fn PREFIX_half(half: u16) -> f32 {
     let value = f32::from_bits(u32::from(half & 0x7fff) << 13) * 5.192_296_9e33; // 2^112
     if half & 0x8000 == 0 { value } else { -value }
@@ -370,6 +371,7 @@ fn PREFIX_half(half: u16) -> f32 {
 ",
     linear: "
 /// The linear value on the curve of sRGB.
+#[allow(non_snake_case, reason = \"it begins as the others do\")]
 fn PREFIX_linear(code: f32) -> f32 {
     if code <= 0.04045 { code / 12.92 } else { f32::powf((code + 0.055) / 1.055, 2.4) }
 }

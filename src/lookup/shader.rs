@@ -202,16 +202,17 @@ impl Shader<'_> {
         format!("{}({})", self.syntax.float4, members.join(", "))
     }
 
-    /// A value clamped to the texels of an axis.
-    fn clamped(place: &str, size: usize) -> String {
-        format!("clamp({place}, 0.0, {:?})", size as f64 - 1.0)
+    /// A value clamped to the texels of an axis; what is no number becomes 0 where max does so.
+    fn clamped(&self, place: &str, size: usize) -> String {
+        let words = &self.syntax.words;
+        let last = (words.number)(size as f64 - 1.0);
+        format!("min({}, {last})", (words.max)(place, &(words.number)(0.0)))
     }
 
     fn filtered(&self) -> String {
         let (syntax, layout) = (self.syntax, self.lookup.layout);
-        let size = format!("{:?}, {:?}", layout.x.size() as f64, layout.y.size() as f64);
-        let centre = format!("{}(nov, roughness) + 0.5", self.lookup.prefixed("place"));
-        let uv = format!("({centre}) / {}({size})", syntax.float2);
+        let (u, v) = (place::uv(&layout.x, &syntax.words), place::uv(&layout.y, &syntax.words));
+        let uv = format!("{}({u}, {v})", syntax.float2);
         let mut lines = vec![(syntax.local)(syntax.float2, "uv", &uv)];
         let sample = |k: &str| (syntax.sample)(self.shape, "uv", k);
         let texel = match self.shape {
@@ -270,8 +271,8 @@ impl Shader<'_> {
         let place = format!("{}(nov, roughness)", self.lookup.prefixed("place"));
         let mut lines = vec![
             (syntax.local)(syntax.float2, "place", &place),
-            (syntax.local)(syntax.float, "x", &Self::clamped("place.x", layout.x.size())),
-            (syntax.local)(syntax.float, "y", &Self::clamped("place.y", layout.y.size())),
+            (syntax.local)(syntax.float, "x", &self.clamped("place.x", layout.x.size())),
+            (syntax.local)(syntax.float, "y", &self.clamped("place.y", layout.y.size())),
         ];
         let slice = |k: &str| self.call("between", &format!("x, y{k}"));
         let texel = if self.lookup.third().is_some() {
@@ -301,7 +302,7 @@ impl Shader<'_> {
     /// The slices on either side of the third argument, and the share of the second.
     fn two_slices(&self) -> [String; 4] {
         let (syntax, depth) = (self.syntax, self.lookup.depth());
-        let z = Self::clamped(&self.third_place(), depth);
+        let z = self.clamped(&self.third_place(), depth);
         [
             (syntax.local)(syntax.float, "z", &z),
             (syntax.local)(syntax.int, "k", &format!("{}(z)", syntax.int)),

@@ -119,6 +119,8 @@ pub const HLSL: Syntax = Syntax {
 };
 
 pub const MSL: Syntax = Syntax {
+    // A header may be in several files.
+    function: |kind, name, parameters| format!("static inline {kind} {name}({parameters}) {{"),
     words: Words { number: |x| format!("{x:?}f"), ..WORDS },
     mix: "mix",
     texture: |shape| match shape {

@@ -8,6 +8,7 @@
 use super::{MOST_CHANNELS, first, lobe_flags};
 use crate::brdf::fresnel::Integral;
 use crate::brdf::{Fresnel, Microfacet};
+use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::numeric::ball::Ball;
 use crate::table::Channel;
@@ -46,7 +47,12 @@ impl Dfg {
     pub fn new(lobe: Microfacet, fresnel: Fresnel, channels: DfgChannels) -> Result<Self> {
         if channels == DfgChannels::Every {
             lobe.check()?;
-            return Ok(Dfg { lobe, fresnel, channels });
+            // E is the sum of the first two, and a texel has room for no more.
+            if (2..MOST_CHANNELS).contains(&fresnel.count()) {
+                return Ok(Dfg { lobe, fresnel, channels });
+            }
+            let (expected, cure) = ("a Fresnel model of 2 or 3 weights", "leave out the terms");
+            return Err(Error::bad_input("channels", expected, fresnel.word(), cure));
         }
         Dfg::with_channels(lobe, fresnel, channels.word(fresnel))
     }

@@ -57,6 +57,8 @@ pub struct Part {
     picks: Vec<Pick>,
     /// Whether the picks are the table's channels as they are.
     plain: bool,
+    /// The ends of the range that each pick is known to keep.
+    ranges: [(f64, f64); MOST_CHANNELS],
 }
 
 /// A channel of a table on its way to a channel of a texel.
@@ -156,7 +158,14 @@ impl Packing {
         };
         let plain = picks.len() == lut.channels().len()
             && picks.iter().enumerate().all(|(i, pick)| as_it_is((i, pick)));
-        Part { lut, picks, plain }
+        // No channel of a table is negative.
+        let end = if lut.at_most_one() { 1.0 } else { f64::INFINITY };
+        let mut ranges = [(0.0, end); MOST_CHANNELS];
+        for (range, pick) in ranges.iter_mut().zip(&picks) {
+            let (low, high) = (pick.offset, pick.scale * end + pick.offset);
+            *range = (low.min(high), low.max(high));
+        }
+        Part { lut, picks, plain, ranges }
     }
 
     /// The same contents in a slice in which `parameter` has this value; an error where none varies
@@ -205,10 +214,16 @@ impl Packing {
         match (lut.integrand(), self.main().integrand()) {
             (theirs, ours) if theirs == ours => channel,
             (Integrand::Specular(lobe, _), Integrand::Specular(main, _)) if lobe == main => channel,
-            (Integrand::Specular(lobe, _), _) => Channel::new(
-                format!("{}_{}", channel.name, lobe.ndf),
-                format!("{}, of {} with {}", channel.meaning, lobe.ndf, lobe.masking),
-            ),
+            (Integrand::Specular(lobe, _), _) => {
+                let masking = match lobe.masking == lobe.ndf.default_masking() {
+                    true => String::new(),
+                    false => format!("_{}", lobe.masking),
+                };
+                Channel::new(
+                    format!("{}_{}{masking}", channel.name, lobe.ndf),
+                    format!("{}, of {} with {}", channel.meaning, lobe.ndf, lobe.masking),
+                )
+            }
             (Integrand::Diffuse(diffuse), _) => Channel::new(
                 format!("{}_{diffuse}", channel.name),
                 format!("{}, {}", channel.meaning, diffuse.source()),
@@ -272,15 +287,11 @@ impl Part {
         self.picks.iter().map(|pick| pick.place).collect()
     }
 
-    /// Whether no channel can be negative.
-    pub fn nonnegative(&self) -> bool {
-        let sure = |pick: &Pick| pick.offset >= 0.0 && pick.scale > 0.0;
-        self.plain || self.picks.iter().all(sure)
-    }
-
-    /// Whether it is known that no channel exceeds 1.
-    pub fn at_most_one(&self) -> bool {
-        self.plain && self.lut.at_most_one()
+    /// The least and the most that each channel can be: an estimate beyond is nearer to the truth at
+    /// that end.
+    #[inline(always)]
+    pub fn ranges(&self) -> &[(f64, f64); MOST_CHANNELS] {
+        &self.ranges
     }
 
     /// The values of its channels: see [`Lut::values`]. The first [`Part::count`] are used.

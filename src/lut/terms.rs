@@ -31,7 +31,7 @@ const AVERAGES: [&str; 3] = ["a_avg", "b_avg", "e_avg"];
 /// The words of a term, for `--help` and errors.
 pub const TERM_WORDS: &str = "a, b, c, e, 1-e, a_avg, b_avg, e_avg; another lobe's E, as in \
                               charlie, charlie/neubelt or burley; nov, roughness or a number; each \
-                              with *SCALE and +OFFSET or -OFFSET behind it";
+                              but 1-e and a number with *SCALE and +OFFSET or -OFFSET behind it";
 
 /// The packing of a list of terms with commas between, for this lobe and Fresnel model.
 pub fn packing(lobe: Microfacet, fresnel: Fresnel, words: &str) -> Result<Packing> {

@@ -40,7 +40,7 @@ pub const PRESETS: &[Preset] = &[
         stored: "A, B, C by the separable term; roughness runs along a row, y = sqrt(1 - n.v), nodes at \
                  i/63. Refraction (btdf_ggx, bsdf_ggx) is left out.",
         lookup: "(roughness, sqrt(1 - n.v)) * 63/64 + 0.5/64",
-        import: "Put the array into eevee_lut.cc and rebuild. Before F82: --channels ab.",
+        import: "Put the array into eevee_lut.cc and rebuild. Before F82: --channels a,b.",
         faults: "262,144 terms are added in single precision: A is too high by up to 3.4e-3 where \
                  smooth, and A + B exceeds 1.",
     },

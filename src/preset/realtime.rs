@@ -67,7 +67,7 @@ pub const PRESETS: &[Preset] = &[
         source: "KhronosGroup/glTF-IBL-Sampler: lib/shaders/filter.frag; glTF-Sample-Renderer: \
                  source/Renderer/shaders/ibl.glsl",
         stored: "R = A, G = B; row 0 is smooth. Blue, Charlie's E, exceeds what 8 bits hold near \
-                 grazing; a picture of it alone: --lut sheen -o lut_charlie.exr.",
+                 grazing: --channels 0,0,charlie -o lut_charlie.exr is a picture of it alone.",
         lookup: "(n.v, perceptual roughness)",
         import: "No sRGB, no mips, linear, clamp to the edge, UNPACK_FLIP_Y_WEBGL off.",
         faults: "8 bits and 1,024 samples: 1.1e-3 on the average, 0.021 at the most. The Charlie table \
@@ -83,8 +83,8 @@ pub const PRESETS: &[Preset] = &[
         stored: "R = A, G = B as halves; roughness runs along a row, row 0 is grazing.",
         lookup: "(roughness, n.v)",
         import: "Put the array DATA in place of theirs, in both files: no property reaches it.",
-        faults: "4,096 samples: a stored value is off by up to 0.0142. Read between texels it is off by \
-                 up to 0.148, for want of texels: at --size 64 by 0.109.",
+        faults: "4,096 samples: a stored value is off by up to 0.0142. Read between texels E(F0) \
+                 is off by up to 0.148, for want of texels: at --size 64 by 0.109.",
     },
     Preset {
         name: "bevy",
@@ -143,8 +143,8 @@ pub const PRESETS: &[Preset] = &[
                  pictures: row 0 of the file, its top, is rough.",
         lookup: "(n.v, perceptual roughness)",
         import: "As hdrp; the global texture is _PreIntegratedFGD_CharlieAndFabric.",
-        faults: "10 bits of values divided by 2 pi: a step is 6e-3 of E. Direct light uses another \
-                 visibility (Ashikhmin's), 0.063 apart on the average.",
+        faults: "10 bits of values divided by 2 pi: a step is 6e-3 of E. Direct light uses \
+                 another visibility (Ashikhmin's), 0.063 apart on the average of roughness above 0.2.",
     },
     Preset {
         name: "godot",

@@ -1,5 +1,5 @@
-//! An axis of a table: a parameter, its mapping and its nodes. The only half-texel arithmetic in
-//! the crate.
+//! An axis of a table: a parameter, its mapping and its nodes. The half-texel arithmetic of the
+//! crate stands here and in `expression`.
 //!
 //! Texel i of N lies at t = (i + offset)/N (centres: offset ½) or t = i/(N-1) (edges), clamped to
 //! [0, 1] unless the axis is unclamped; a flipped axis counts its texels from the other end; the

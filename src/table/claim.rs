@@ -26,8 +26,8 @@ pub enum Claim {
     Estimated {
         /// The estimator.
         estimator: String,
-        /// The largest error found against the double-exponential reference, and the number of
-        /// texels compared.
+        /// The largest error of an integral found against the double-exponential reference, and
+        /// the number of texels compared.
         measured_error: (f64, usize),
     },
 }
@@ -39,7 +39,7 @@ pub enum Claim {
 pub struct Certificate {
     /// The promise in words.
     pub promise: String,
-    /// The largest error of a stored value in [0, 1].
+    /// The largest error of a stored value in [-1, 1].
     pub bound: f64,
     /// The number of texels.
     pub texels: usize,
@@ -56,8 +56,9 @@ pub struct Certificate {
     /// The smallest distance from a boundary of rounding among the values that the reference
     /// decided.
     pub smallest_distance: Option<f64>,
-    /// BLAKE3 of the stored values, little-endian, row by row, the channels of a texel side by
-    /// side.
+    /// BLAKE3 of the stored values of the slice, little-endian, row by row, the channels of a texel
+    /// side by side: of a2b10g10r10 as whole numbers of 16 bits, of rgbd8 as the f32 that the codes
+    /// stand for.
     pub blake3: String,
 }
 

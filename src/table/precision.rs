@@ -62,7 +62,7 @@ impl Precision {
         }
     }
 
-    /// The largest error of storing a value in [0, 1]; of [`Precision::Rgbd8`] in a texel without
+    /// The largest error of storing a value in [-1, 1]; of [`Precision::Rgbd8`] in a texel without
     /// values above 1.
     pub fn half_step(self) -> f64 {
         match self {
@@ -75,6 +75,15 @@ impl Precision {
             // The widest steps are at 1.
             Precision::Srgb8 => 0.5 * (1.0 - srgb::value(254)),
             Precision::Rgbd8 => 0.5 * (1.0 - rgbd::value(254, 255)),
+        }
+    }
+
+    /// The rounding in words.
+    pub fn rounding(self) -> &'static str {
+        match self {
+            Precision::Srgb8 => "to the code whose linear value is nearest",
+            Precision::Rgbd8 => "to the nearest code, after the divisor of the texel",
+            _ => "to nearest, ties to even",
         }
     }
 
@@ -134,14 +143,6 @@ impl Precision {
         let nearest = self.nearest(value);
         // The sum that rounds to a half loses the sign of what becomes 0.
         if self.holds(nearest) { nearest.copysign(value) } else { value }
-    }
-
-    /// `value`, or the nearer end of the range where it lies no more than so much `below` or
-    /// `above` it: for estimates of what does not leave the range.
-    pub fn pulled_in(self, value: f64, below: f64, above: f64) -> f64 {
-        let (low, high) = self.range();
-        let near = value >= low - below && value <= high + above;
-        if near { value.clamp(low, high) } else { value }
     }
 
     /// The distance of `value` from the nearest number at which the stored value changes.

@@ -197,7 +197,8 @@ impl Case {
         let mut coordinate = |i: usize, nodes: &[f64]| {
             let u = random.next();
             match i % 8 {
-                0 => [0.0, 1.0][i / 8 % 2],
+                // The ends, and a little beyond, where a shader's rounding may lie.
+                0 => [0.0, 1.0, -1e-7, 1.0 + 1e-6][i / 8 % 4],
                 1 => 1e-4 * u,
                 2 => 1.0 - 1e-4 * u,
                 3 => nodes[(u * nodes.len() as f64) as usize],
@@ -205,12 +206,11 @@ impl Case {
             }
         };
         let (x, y) = (self.layout.x.values(), self.layout.y.values());
-        let within = |value: f64| value.clamp(0.0, 1.0) as f32;
         (0..count)
             .map(|i| {
                 let point =
                     [coordinate(i, &x), coordinate(i / 3, &y), coordinate(i / 5, &[0.04, 0.5])];
-                point.map(within)
+                point.map(|value| value as f32)
             })
             .collect()
     }

@@ -10,9 +10,10 @@ mod browser;
 mod cases;
 mod compilers;
 mod native;
+mod spheres;
 
 use common::{READERS, missing, with_named, with_program};
-use libtest_mimic::{Arguments, Trial};
+use libtest_mimic::{Arguments, Failed, Trial};
 use std::path::Path;
 
 fn main() {
@@ -27,14 +28,20 @@ fn main() {
         with_program("glslangValidator", "glslang takes GLSL and HLSL", compilers::glslang),
         with_named("SPLITSUM_SLANGC", "slangc takes HLSL", |slangc| compilers::slangc(&slangc)),
     ];
-    let name = "a browser reads every preset's table, by WebGL2 and by WebGPU";
     let modules = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/web/node_modules");
-    trials.push(match modules.is_dir() {
-        true => Trial::test(name, browser::every_preset),
+    let in_browser = |name: &str, test: fn() -> Result<(), Failed>| match modules.is_dir() {
+        true => Trial::test(name, test),
         false => {
             let reason = "tests/web/node_modules is missing: run npm ci there".to_owned();
             missing(READERS, name.into(), reason)
         }
-    });
+    };
+    trials.extend([
+        in_browser(
+            "a browser reads every preset's table, by WebGL2 and by WebGPU",
+            browser::every_preset,
+        ),
+        in_browser("three.js renders the same spheres with our table", spheres::are_the_same),
+    ]);
     libtest_mimic::run(&Arguments::from_args(), trials).exit();
 }

@@ -4,6 +4,7 @@
 use crate::DeviceTest;
 use crate::common::{Random, ab, ggx};
 use libtest_mimic::Failed;
+use splitsum::Baked;
 use splitsum::backend::device::GpuOptions;
 use splitsum::backend::{Backend, BackendChoice, Gpu, bake, cpu};
 use splitsum::brdf::{Diffuse, Fresnel, Masking, Microfacet, Ndf};
@@ -12,7 +13,9 @@ use splitsum::error::ExitCode;
 use splitsum::format::{Format, encode};
 use splitsum::integrate::Integrand;
 use splitsum::integrate::rule::{CHARLIE_LIMIT, Method, Rule};
+use splitsum::lut::terms::packing;
 use splitsum::lut::{Dfg, DfgChannels, Lut};
+use splitsum::report::Computed;
 use splitsum::request::{Accuracy, Request};
 use splitsum::table::axis::{Axis, AxisSpec, Parameter};
 use splitsum::table::grid::Grid;
@@ -25,6 +28,7 @@ pub const TESTS: &[DeviceTest] = &[
     ),
     ("certified tables of every lobe have the CPU's bytes", every_lobe),
     ("certified tables in every precision have the CPU's bytes", every_precision),
+    ("certified tables of several lobes have the CPU's bytes", several_lobes),
     ("the device stays within the bounds that certification trusts", within_its_bounds),
 ];
 
@@ -121,6 +125,25 @@ fn every_precision(gpu: &Gpu) -> Result<(), Failed> {
         if !refused.is_err_and(|error| error.exit_code() == ExitCode::BadInput) {
             return Err(format!("{lut:?} in {precision:?} by a device").into());
         }
+    }
+    Ok(())
+}
+
+/// Channels of lobes that a device integrates, and of one that the CPU has in closed form; roughness
+/// from half a texel beyond 1 on.
+fn several_lobes(gpu: &Gpu) -> Result<(), Failed> {
+    let x: Axis = Axis::new("nov,sqrt,edges,min=1e-3".parse()?, 24)?;
+    let y: Axis = Axis::new("roughness,offset=1.5,flip,unclamped".parse()?, 24)?;
+    for precision in [Precision::F16, Precision::A2b10g10r10, Precision::Srgb8] {
+        let words = "b,1-e,burley*0.5,1";
+        let packing = packing(ggx(Masking::Separable), Fresnel::Schlick, words)?;
+        let request = Request::new(packing, x, y, Accuracy::Rounded, precision)?;
+        let by =
+            |backend: &Backend| -> Result<Baked, Failed> { Ok(splitsum::bake(&request, backend)?) };
+        let (device, cpu) = (by(&on(gpu, None)?)?, by(&Backend::cpu())?);
+        assert!(matches!(device.reports[0].computed, Computed::Vulkan { .. }));
+        assert!(matches!(device.reports[1].computed, Computed::Cpu { .. }));
+        assert_eq!(device.table, cpu.table, "{precision}");
     }
     Ok(())
 }

@@ -38,11 +38,11 @@ impl TableArgs {
             base.supercompress = None;
             base.numbers = None;
             base.symbol = None;
+            base.slices_as = None;
         } else {
             base.output = Some(format!("{DEFAULT_FOLDER}/{}", preset.file));
         }
         let given = self.clone();
-        // Slices are along an axis or at values, and a size is theirs too.
         Ok(TableArgs {
             preset: None,
             lut: given.lut.or(base.lut),
