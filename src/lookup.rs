@@ -85,7 +85,7 @@ struct Third {
 
 /// Words that one of the languages has, and names in the code itself.
 #[rustfmt::skip]
-const TAKEN: [&str; 120] = [
+const TAKEN: &[&str] = &[
     "as", "asm", "auto", "await", "bool", "break", "case", "catch", "char", "class", "const",
     "constant", "continue", "default", "delete", "device", "discard", "do", "double", "else",
     "enum", "export", "extern", "false", "final", "float", "float2", "float3", "float4", "fn",
@@ -98,7 +98,10 @@ const TAKEN: [&str; 120] = [
     "vec3", "vec4", "vertex", "void", "volatile", "where", "while", "with", "yield",
     "at", "between", "channels", "components", "depth", "exact", "filtered", "height", "nov",
     "numbers", "place", "roughness", "share", "table", "texel", "uv", "weight", "width", "main",
-    "fragment", "memcpy",
+    "fragment", "memcpy", "sqrtf", "fminf", "fmaxf", "powf", "log2f", "sqrt", "min", "max", "mix",
+    "lerp", "clamp", "pow", "log2", "sample", "sampler2D", "i", "j", "k", "x", "y", "z", "f0", "std",
+    "unix", "linux", "eval", "module", "abstract", "become", "virtual", "typename", "friend", "NULL",
+    "INFINITY", "NAN", "M_PI", "uint8_t", "uint16_t", "uint32_t", "slice", "after",
 ];
 
 /// Refuses a name that is none in every language.

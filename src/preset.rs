@@ -46,6 +46,12 @@ impl Preset {
 
     /// The command without a preset.
     pub fn command(&self) -> String {
-        format!("splitsum bake {} -o {}", self.flags, self.file)
+        // A shell expands a bare *.
+        let quoted = |word: &str| match word.contains('*') {
+            true => format!("'{word}'"),
+            false => word.to_owned(),
+        };
+        let flags: Vec<String> = self.flags.split_whitespace().map(quoted).collect();
+        format!("splitsum bake {} -o {}", flags.join(" "), self.file)
     }
 }

@@ -271,7 +271,12 @@ fn check_part(lut: &Lut, grid: &Grid, accuracy: Accuracy, precision: Precision) 
             }
             _ => {
                 let cure = "leave out the other channels, or the estimator";
-                Err(Error::bad_input("estimator", "integrals of ggx alone", lut.flags(), cure))
+                let got = match lut {
+                    Lut::Energy(_) => "what averages are needed for".to_owned(),
+                    Lut::Dfg(dfg) => format!("those of {}", dfg.lobe().ndf),
+                    Lut::Diffuse(diffuse) => format!("that of {diffuse}"),
+                };
+                Err(Error::bad_input("estimator", "integrals of ggx alone", got, cure))
             }
         },
         (Accuracy::Rule(rule), _) if !RULES.contains(&rule) => {

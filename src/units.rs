@@ -78,16 +78,28 @@ unit!(F0, "F0", "0 to 1", |v| (0.0..=1.0).contains(&v));
 impl PerceptualRoughness {
     /// The roughness of a texel, which may lie a little beyond 1.
     pub fn of_texel(value: f64) -> Result<Self> {
-        let beyond = value > 1.0 && alpha_of(value) <= LARGEST_ALPHA;
-        if beyond { Ok(PerceptualRoughness(value)) } else { PerceptualRoughness::new(value) }
+        match value {
+            1.0.. if alpha_of(value) <= LARGEST_ALPHA => Ok(PerceptualRoughness(value)),
+            1.0.. => Err(beyond_a_texel("perceptual roughness", "1.06", value)),
+            _ => PerceptualRoughness::new(value),
+        }
     }
+}
+
+/// The error of a texel too far beyond 1.
+fn beyond_a_texel(what: &str, most: &str, value: f64) -> Error {
+    let expected = format!("at most {most} on an unclamped axis");
+    Error::bad_input(what, expected, short(value), "give a value in that range")
 }
 
 impl Alpha {
     /// The α of a texel, which may lie a little beyond 1.
     pub fn of_texel(value: f64) -> Result<Self> {
-        let beyond = value > 1.0 && value <= LARGEST_ALPHA;
-        if beyond { Ok(Alpha(value)) } else { Alpha::new(value) }
+        match value {
+            1.0..=LARGEST_ALPHA => Ok(Alpha(value)),
+            1.0.. => Err(beyond_a_texel("alpha", "1.125", value)),
+            _ => Alpha::new(value),
+        }
     }
 }
 

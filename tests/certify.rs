@@ -246,7 +246,10 @@ fn where_the_reference_is_worse_the_certificate_says_so() {
     let grid = Grid::of(vec![0.5], (1..=40).map(|i| f64::from(i) / 40.0).collect());
     let certified = certify(&task(&lut.into(), &grid, Precision::Unorm16), None).unwrap();
     let promise = &certified.certificate.promise;
-    assert!(certified.certificate.undecided > 0 && promise.contains("within 2.1e-6 only"), "{promise}");
+    assert!(
+        certified.certificate.undecided > 0 && promise.contains("within 2.1e-6 only"),
+        "{promise}"
+    );
 }
 
 #[test]

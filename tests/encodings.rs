@@ -241,7 +241,7 @@ fn styles_that_a_format_does_not_follow_are_refused() {
         let style = Style { components: Some(components), ..Style::default() };
         assert!(refused("ktx2", style).contains("components: expected 2 or 4 for 2 channels"));
     }
-    for symbol in ["", "1a", "a-b", "_a", "a__b", "é", &"a".repeat(65)] {
+    for symbol in ["", "1a", "a-b", "_a", "a__b", "é", "table", "float", &"a".repeat(65)] {
         let style = Style { symbol: Some(symbol.into()), ..Style::default() };
         assert!(refused("h", style).contains("symbol: expected a letter"), "{symbol}");
     }

@@ -144,6 +144,7 @@ fn wrong_lists_are_refused() {
         "nan",
         "e*2*3",
         "1-e*2",
+        "e*1e-50",
     ] {
         assert!(packing(words, Fresnel::Schlick).is_err(), "'{words}' was taken");
     }

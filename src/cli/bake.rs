@@ -63,6 +63,8 @@ struct Run {
 #[derive(Serialize)]
 struct Baked {
     output: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lookup: Option<String>,
     #[serde(flatten)]
     report: Report,
 }
@@ -124,7 +126,9 @@ fn print_plans(jobs: &[Job], backend: &Backend) -> Result<()> {
     standard_output::check()?;
     let plan = |job: &Job| {
         let plan = Plan::new(&job.request, backend)?;
-        Ok(format!("output    {}\ncommand   {}\n{plan}", job.output, job.request))
+        let lookup =
+            job.lookup.as_ref().map_or(String::new(), |(name, _)| format!("\nlookup    {name}"));
+        Ok(format!("output    {}{lookup}\ncommand   {}\n{plan}", job.output, job.command()))
     };
     super::print(&jobs.iter().map(plan).collect::<Result<Vec<_>>>()?.join("\n\n"))
 }
@@ -160,7 +164,12 @@ fn bake(job: &Job, backend: &Backend, arguments: &BakeArgs) -> Result<Vec<Baked>
             let _ = writeln!(std::io::stderr(), "wrote     {name}: lookup code");
         }
     }
-    Ok(baked.reports.into_iter().map(|report| Baked { output: output.clone(), report }).collect())
+    let of_file = |report: Report| Baked {
+        output: output.clone(),
+        lookup: lookup.as_ref().map(|(name, _)| name.clone()),
+        report: Report { command: job.command(), ..report },
+    };
+    Ok(baked.reports.into_iter().map(of_file).collect())
 }
 
 fn dependency_file(arguments: &BakeArgs, jobs: &[Job]) -> Result<Option<String>> {

@@ -71,7 +71,9 @@ pub struct MeasuredArgs {
 fn of_picture(argument: clap::Arg) -> clap::Arg {
     match argument.get_id().as_str() {
         "output" => argument.help("Picture to write, a .png [default: out/dfg.png]"),
-        name if FLAGS_OF_FILES.iter().any(|flag| flag.0 == name) => argument.hide(true),
+        name if FLAGS_OF_FILES.iter().any(|flag| flag.0.replace('-', "_") == name) => {
+            argument.hide(true)
+        }
         _ => argument,
     }
 }

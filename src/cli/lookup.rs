@@ -1,7 +1,7 @@
 //! `splitsum lookup`
 
 use super::table_args::{Job, TableArgs};
-use super::{choices, output, print, standard_output, usage};
+use super::{choices, output, place, print, standard_output, usage};
 use crate::error::{Error, Result};
 use crate::format::texels::about_components;
 use crate::lookup::{
@@ -58,7 +58,19 @@ const HEADER: u64 = 1 << 20;
 pub fn run(arguments: &LookupArgs) -> Result<()> {
     let LookupArgs { file, language, with, prefix, table } = arguments;
     let output = table.output.as_ref();
+    if let (Some(file), Some(output)) = (file, output) {
+        let mut files = place::Files::default();
+        files.add("the table that is read", file);
+        if let Some(other) = files.add("the code", output) {
+            let got = format!("{output}, which is {other}");
+            return Err(usage("-o", "a file of its own", &got, "name another one"));
+        }
+    }
     let language = match (language, output) {
+        (Some(language), Some(output)) if language_of(output).is_ok_and(|own| own != *language) => {
+            let got = format!("{output} for --language {language}");
+            return Err(usage("-o", "a name of that language", &got, "leave one of them out"));
+        }
         (Some(language), _) => *language,
         (None, Some(output)) => language_of(output)?,
         (None, None) => {
@@ -143,7 +155,8 @@ fn command_of(path: &str) -> Result<String> {
         .or_else(|| after(": splitsum bake ").and_then(|rest| rest.lines().next()));
     command.map(str::to_owned).ok_or_else(|| {
         let expected = "the metadata of splitsum";
-        let cure = "name an .exr, .ktx2 or .png of splitsum, or give the flags of its bake";
+        let cure = "name an .exr, .ktx2, .png or source code of splitsum, or give the flags of its \
+                    bake";
         Error::bad_input(path, expected, "none", cure)
     })
 }

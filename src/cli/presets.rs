@@ -34,7 +34,6 @@ fn list() -> String {
 /// A preset in full.
 fn page(preset: &Preset) -> String {
     let parts = [
-        ("bake", preset.command()),
         ("stored", preset.stored.to_owned()),
         ("lookup", preset.lookup.to_owned()),
         ("import", preset.import.to_owned()),
@@ -42,7 +41,9 @@ fn page(preset: &Preset) -> String {
         ("source", preset.source.to_owned()),
     ];
     let parts = parts.map(|(name, text)| format!("{name:8}  {}", wrapped(&text)));
-    format!("{}: {}\n\n{}", preset.name, preset.about, parts.join("\n\n"))
+    // On one line, to be pasted.
+    let bake = format!("bake      {}", preset.command());
+    format!("{}: {}\n\n{bake}\n\n{}", preset.name, preset.about, parts.join("\n\n"))
 }
 
 /// Columns of a line.

@@ -50,7 +50,10 @@ pub struct TableArgs {
     /// a, b, c, e, 1-e, a_avg, b_avg, e_avg; another lobe's E, as in charlie, charlie/neubelt or
     /// burley; nov, roughness or a number; each but 1-e and a number with *SCALE and +OFFSET or
     /// -OFFSET behind it [default: all integrals for dfg, e for sheen, split for energy]
-    #[arg(long, value_name = "NAME|TERM[,TERM...]", value_parser = choices::channels())]
+    #[arg(
+        long, value_name = "NAME|TERM[,TERM...]", value_parser = choices::channels(),
+        allow_hyphen_values = true
+    )]
     channels: Option<String>,
     /// Reflectance at normal incidence, for the split of energy; several, with commas between, are
     /// slices, layers of an .exr [default: 0.04]
@@ -186,6 +189,13 @@ pub struct Job {
     pub output: String,
     /// Lookup code and its language.
     pub lookup: Option<(String, Language)>,
+}
+
+impl Job {
+    /// The command that repeats the file, but for its name.
+    pub fn command(&self) -> String {
+        self.encoding.command(&self.request.to_string(), self.request.precision())
+    }
 }
 
 impl TableArgs {

@@ -111,6 +111,10 @@ impl Encoding {
         }
         let components = components(format, style.components, layout.channels.len(), precision)?;
         style.check(format)?;
+        if style.slices != SlicesAs::default() && slices == 1 {
+            let cure = "leave it out, or bake several";
+            return Err(Error::bad_input("slices-as", "several slices", "one", cure));
+        }
         Ok(Encoding { format, style, components })
     }
 
@@ -180,6 +184,18 @@ fn components(
             let got = wanted.unwrap_or(channels).to_string();
             let what = if known.is_empty() { "channels" } else { "components" };
             Err(Error::bad_input(what, expected, got, "choose those, or another format"))
+        }
+    }
+}
+
+impl Encoding {
+    /// The command that repeats the file: that of the table, and the format where its storage does
+    /// not tell.
+    pub fn command(&self, table: &str, precision: Precision) -> String {
+        let told = std::ptr::eq(Format::of_precision(Some(precision)), self.format);
+        match told && self.style == Style::default() {
+            true => table.to_owned(),
+            false => format!("{table} {self}"),
         }
     }
 }

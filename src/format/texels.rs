@@ -1,8 +1,7 @@
 //! The texels of a file: the channels of a table and what fills up a texel, as bytes in the file's
 //! order of bits.
 
-use super::Format;
-use super::encoding::{Encoding, Style};
+use super::encoding::Encoding;
 use crate::table::precision::Precision;
 use crate::table::rgbd;
 use crate::table::{Layout, Table};
@@ -113,15 +112,9 @@ impl<'a> Texels<'a> {
         [code(0), code(1), code(2), divisor]
     }
 
-    /// The command that repeats the file: the table's, and the format where its storage does not
-    /// tell.
+    /// The command that repeats the file.
     pub fn command(&self) -> String {
-        let (table, encoding) = (self.table.command(), &self.encoding);
-        let told = std::ptr::eq(Format::of_precision(Some(self.precision())), encoding.format());
-        match told && *encoding.style() == Style::default() {
-            true => table.to_owned(),
-            false => format!("{table} {encoding}"),
-        }
+        self.encoding.command(self.table.command(), self.precision())
     }
 
     /// What each component of a texel is.

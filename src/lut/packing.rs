@@ -94,15 +94,17 @@ impl Packing {
             let (got, cure) = (contents.len().to_string(), "leave some out");
             return Err(Error::bad_input("channels", expected, got, cure));
         }
-        let wrong = |content: &Content| {
+        // Lookups undo them in f32.
+        let normal = f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX);
+        let right = |content: &&Content| {
             let Content { scale, offset, .. } = content;
-            !(scale.is_finite() && offset.is_finite()) || *scale == 0.0
+            normal.contains(&scale.abs()) && offset.abs() <= *normal.end()
         };
-        if let Some(Content { scale, offset, .. }) = contents.iter().find(|content| wrong(content))
+        if let Some(Content { scale, offset, .. }) = contents.iter().find(|content| !right(content))
         {
-            let got = format!("{scale} and {offset}");
-            let cure = "give other numbers";
-            return Err(Error::bad_input("channels", "a finite scale and offset", got, cure));
+            let got = format!("a scale of {scale:e} and an offset of {offset:e}");
+            let expected = "scales and offsets that f32 holds, and no scale of 0";
+            return Err(Error::bad_input("channels", expected, got, "give other numbers"));
         }
         let packing = Packing { luts, contents, flags, picked: true };
         let fills = |part: &Part| !part.picks.is_empty();

@@ -52,7 +52,12 @@ pub fn packing(lobe: Microfacet, fresnel: Fresnel, words: &str) -> Result<Packin
     }
     let own = Dfg::new(lobe, fresnel, DfgChannels::All)?;
     let words = words.split(',').map(str::trim).collect::<Vec<_>>().join(",");
-    let packing = Packing::new(luts, contents, format!("{} --channels {words}", own.lobe_flags()))?;
+    // A shell expands a bare *, and takes a leading - for a flag.
+    let quoted = match words.contains('*') || words.starts_with('-') {
+        true => format!("--channels='{words}'"),
+        false => format!("--channels {words}"),
+    };
+    let packing = Packing::new(luts, contents, format!("{} {quoted}", own.lobe_flags()))?;
     // A list that is all of a table has that table's name.
     Ok(named(&packing).unwrap_or(packing))
 }
@@ -109,7 +114,10 @@ fn term(fresnel: Fresnel, word: &str) -> Result<Option<(Quantity, f64, f64)>> {
     }
     let (word, offset) = split_offset(word);
     let (word, scale) = match word.split_once('*') {
-        Some((word, scale)) => (word, scale.parse().unwrap_or(f64::NAN)),
+        Some((word, scale)) => match scale.parse() {
+            Ok(scale) => (word, scale),
+            Err(_) => return Ok(None),
+        },
         None => (word, 1.0),
     };
     Ok(quantity(fresnel, word)?.map(|quantity| (quantity, scale, offset)))

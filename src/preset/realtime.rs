@@ -67,7 +67,8 @@ pub const PRESETS: &[Preset] = &[
         source: "KhronosGroup/glTF-IBL-Sampler: lib/shaders/filter.frag; glTF-Sample-Renderer: \
                  source/Renderer/shaders/ibl.glsl",
         stored: "R = A, G = B; row 0 is smooth. Blue, Charlie's E, exceeds what 8 bits hold near \
-                 grazing: --channels 0,0,charlie -o lut_charlie.exr is a picture of it alone.",
+                 grazing: --channels 0,0,charlie --precision f16 -o lut_charlie.exr is a picture of \
+                 it alone.",
         lookup: "(n.v, perceptual roughness)",
         import: "No sRGB, no mips, linear, clamp to the edge, UNPACK_FLIP_Y_WEBGL off.",
         faults: "8 bits and 1,024 samples: 1.1e-3 on the average, 0.021 at the most. The Charlie table \

@@ -247,7 +247,7 @@ pub const AXIS_WORDS: &str = "PARAMETER[,MAPPING][,NODES][,flip][,unclamped][,mi
                               PARAMETER nov, roughness, alpha, exponent or (along z) f0; MAPPING \
                               linear, sqrt (t = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES \
                               centres, edges or offset=X with X in [-2, 2]; min=X with X in [0, 1]; \
-                              max=X from min up";
+                              max=X above 0, from min up";
 
 impl FromStr for AxisSpec {
     type Err = Error;

@@ -137,7 +137,8 @@ pub fn slangc(program: &Path) -> Result<(), Failed> {
         fs::write(&path, hlsl(&text, above, shape))?;
         let mut command = Command::new(program);
         command.arg(&path).args(["-lang", "hlsl", "-entry", "main", "-stage", "fragment"]);
-        printed(command.args(["-target", "hlsl", "-o", "/dev/null"]))?;
+        // To a file: it replaces what it writes to, even /dev/null.
+        printed(command.args(["-target", "hlsl", "-o"]).arg(folder.path().join("out.hlsl")))?;
     }
     Ok(())
 }

@@ -38,10 +38,15 @@ pub fn run(table: &TableArgs) -> Result<()> {
     for (channel, about) in table.channels().iter().enumerate() {
         let of_channel = || planes.iter().skip(channel).step_by(n).flatten();
         let largest = of_channel().copied().fold(0.0, f64::max);
+        let least = of_channel().copied().fold(0.0, f64::min);
         let scale = 1.0 / largest.max(f64::MIN_POSITIVE);
         let values = planes.iter_mut().skip(channel).step_by(n).flatten();
         values.for_each(|value| *value *= scale);
-        lines.push(format!("{}: 0 to {largest:.4}", about.name));
+        lines.push(format!(
+            "{}: {} to {largest:.4}",
+            about.name,
+            if least < 0.0 { format!("{least:.4}, shown as 0,") } else { "0".into() }
+        ));
     }
     output::write_picture(output, &panels(&planes, size, n, sequential))?;
     print(&lines.join(", "))

@@ -17,7 +17,9 @@ struct Flags {
 impl TableArgs {
     /// The table of these flags, with blanks between.
     pub fn of_flags(flags: &str) -> Result<TableArgs> {
-        let parsed = Flags::try_parse_from(flags.split_whitespace());
+        // No word of theirs has blanks, so that quotes only guard it from a shell.
+        let words = flags.split_whitespace().map(|word| word.replace('\'', ""));
+        let parsed = Flags::try_parse_from(words);
         let wrong = |error: clap::Error| {
             let first = error.to_string().lines().next().unwrap_or_default().to_owned();
             Error::bad_input("flags", "those of 'splitsum bake'", first, "bake the file anew")
