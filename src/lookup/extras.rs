@@ -118,7 +118,8 @@ fn function(
         language => (syntax(language).function)(float, &name, &parameters),
     };
     let line = |&(name, value): &(&str, &str)| {
-        let value = if language == Language::C { in_c(value) } else { value.to_owned() };
+        let with_suffix = matches!(language, Language::C | Language::Msl);
+        let value = if with_suffix { in_c(value) } else { value.to_owned() };
         match (name, language) {
             ("", _) => format!("    return {value};\n"),
             (name, Language::Rust) => format!("    let {name} = {value};\n"),

@@ -189,7 +189,9 @@ pub fn metal() -> Result<(), Failed> {
         // The shim's textures hold what hardware gives: values, or the codes of RGBD.
         let texels: Vec<String> =
             case.values.chunks(case.components).map(|texel| texel_text(&case, texel)).collect();
-        splitsum(folder.path(), &format!("lookup {flags} --format raw -o passed.metal"))?;
+        let extras = if name == "plain" { "--with turquin,fdez-aguera" } else { "" };
+        let passed = format!("lookup {flags} {extras} --format raw -o passed.metal");
+        splitsum(folder.path(), &passed)?;
         splitsum(folder.path(), &format!("bake -q {flags} -o above.metal"))?;
         for above in [false, true] {
             let include = if above { "above.metal" } else { "passed.metal" };

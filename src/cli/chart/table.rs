@@ -42,11 +42,12 @@ pub fn run(table: &TableArgs) -> Result<()> {
         let scale = 1.0 / largest.max(f64::MIN_POSITIVE);
         let values = planes.iter_mut().skip(channel).step_by(n).flatten();
         values.for_each(|value| *value *= scale);
-        lines.push(format!(
-            "{}: {} to {largest:.4}",
-            about.name,
-            if least < 0.0 { format!("{least:.4}, shown as 0,") } else { "0".into() }
-        ));
+        // An estimate of 0 may lie a little below.
+        let from = match least < -5e-5 {
+            true => format!("{least:.4}, shown as 0,"),
+            false => "0".into(),
+        };
+        lines.push(format!("{}: {from} to {largest:.4}", about.name));
     }
     output::write_picture(output, &panels(&planes, size, n, sequential))?;
     print(&lines.join(", "))
