@@ -12,9 +12,9 @@
 //! # Ok::<(), splitsum::Error>(())
 //! ```
 //!
-//! [`packing`] puts channels of several lobes into a texel, from their words. [`encode`] makes a file
-//! of a table, an [`Encoding`] one in another style, and a [`Lookup`] the code that reads it. A
-//! [`Plan`] tells beforehand which rules and which device a bake takes, and takes a progress
+//! [`packing`] puts channels of several lobes into a texel, from their words. [`encode`] makes a
+//! file of a table, an [`Encoding`] one in another style, and a [`Lookup`] the code that reads it.
+//! A [`Plan`] tells beforehand which rules and which device a bake takes, and takes a progress
 //! callback.
 //!
 //! The names above are the library; the modules below are its inside, open to its own tests and

@@ -99,9 +99,10 @@ const TAKEN: &[&str] = &[
     "at", "between", "channels", "components", "depth", "exact", "filtered", "height", "nov",
     "numbers", "place", "roughness", "share", "table", "texel", "uv", "weight", "width", "main",
     "fragment", "memcpy", "sqrtf", "fminf", "fmaxf", "powf", "log2f", "sqrt", "min", "max", "mix",
-    "lerp", "clamp", "pow", "log2", "sample", "sampler2D", "i", "j", "k", "x", "y", "z", "f0", "std",
-    "unix", "linux", "eval", "module", "abstract", "become", "virtual", "typename", "friend", "NULL",
-    "INFINITY", "NAN", "M_PI", "uint8_t", "uint16_t", "uint32_t", "slice", "after",
+    "lerp", "clamp", "pow", "log2", "sample", "sampler2D", "i", "j", "k", "x", "y", "z", "f0",
+    "std", "unix", "linux", "eval", "module", "abstract", "become", "virtual", "typename",
+    "friend", "NULL", "INFINITY", "NAN", "M_PI", "uint8_t", "uint16_t", "uint32_t", "slice",
+    "after",
 ];
 
 /// Refuses a name that is none in every language.

@@ -22,7 +22,8 @@ use std::fmt;
 pub enum Accuracy {
     /// Certified: every value is the true one, rounded once to the nearest. Not for f32 and rgbd8.
     Rounded,
-    /// Certified: every value is within this absolute error before it is rounded. For f32 and rgbd8.
+    /// Certified: every value is within this absolute error before it is rounded. For f32 and
+    /// rgbd8.
     Within(f64),
     /// Not certified: integrals within this absolute error, by the cheapest rule.
     Tolerance(f64),

@@ -53,7 +53,8 @@ fn the_curve_of_srgb_is_the_standards_and_codes_are_the_nearest() {
         let half = Precision::Srgb8.half_step();
         assert!(held || value > 1.0 + half || value < 0.0, "{value}");
         assert!(!held || (Precision::Srgb8.nearest(value) - value).abs() <= 1.000_001 * half);
-        // Short of the boundary the code is the same on both sides, and beyond it is another on one.
+        // Short of the boundary the code is the same on both sides, and beyond it is another on
+        // one.
         let inside = value.clamp(0.0, 1.0);
         let boundary = Precision::Srgb8.distance_to_boundary(inside);
         let at =
@@ -120,8 +121,8 @@ fn the_descriptor_of_rg16f_is_that_of_bevys_own_file() {
     // VK_FORMAT_R16G16_SFLOAT, 8 x 4, no depth, no layers, one face, one level, not compressed.
     let header: Vec<u32> = (0..9).map(|i| word(&file, 12 + 4 * i)).collect();
     assert_eq!(header, [83, 2, 8, 4, 0, 0, 1, 1, 0]);
-    let published = "3c000000 00000000 02003800 01010100 00000000 04000000 00000000 00000fc0 00000000 \
-                     000080bf 0000803f 10000fc1 00000000 000080bf 0000803f";
+    let published = "3c000000 00000000 02003800 01010100 00000000 04000000 00000000 00000fc0 \
+                     00000000 000080bf 0000803f 10000fc1 00000000 000080bf 0000803f";
     let descriptor = &file[104..][..60];
     let hex: Vec<String> = descriptor
         .chunks(4)

@@ -241,7 +241,8 @@ pub fn rust(lookup: &Lookup, fields: &[Field], store: Store) -> String {
         .collect();
     let _ = write!(
         code,
-        "\n/// The numbers of a lookup.\n#[allow(non_snake_case, non_camel_case_types, reason = \"these are their names\")]\n\
+        "\n/// The numbers of a lookup.\n#[allow(non_snake_case, non_camel_case_types, \
+         reason = \"these are their names\")]\n\
          #[derive(Clone, Copy, Debug, Default, PartialEq)]\npub struct {numbers} {{\n{members}}}\n"
     );
     code += &RUST_DECODERS.of(lookup);

@@ -137,8 +137,8 @@ impl Shader<'_> {
             (place::along(&layout.x, &syntax.words), place::along(&layout.y, &syntax.words));
         let parameters = [("nov", syntax.float), ("roughness", syntax.float)];
         let lines = [format!("return {}({x}, {y});", syntax.float2)];
-        let about = "The place of (n.v, perceptual roughness) in texels: that of column i and row j \
-                     is (i, j).";
+        let about = "The place of (n.v, perceptual roughness) in texels: that of column i and row \
+                     j is (i, j).";
         self.function(about, syntax.float2, "place", &parameters, &lines)
     }
 
@@ -231,8 +231,8 @@ impl Shader<'_> {
         };
         lines.push(format!("return {}_unpack({texel});", self.lookup.prefix));
         let parameters = self.with_table(true, &self.arguments());
-        let about = "Through a sampler: linear, clamped to the edge, no mips. GPUs blend by weights of \
-                     8 bits.";
+        let about = "Through a sampler: linear, clamped to the edge, no mips. GPUs blend by \
+                     weights of 8 bits.";
         self.function(about, &self.lookup.numbers(), "filtered", &parameters, &lines)
     }
 

@@ -289,8 +289,8 @@ impl Part {
         self.picks.iter().map(|pick| pick.place).collect()
     }
 
-    /// The least and the most that each channel can be: an estimate beyond is nearer to the truth at
-    /// that end.
+    /// The least and the most that each channel can be: an estimate beyond is nearer to the truth
+    /// at that end.
     #[inline(always)]
     pub fn ranges(&self) -> &[(f64, f64); MOST_CHANNELS] {
         &self.ranges

@@ -9,11 +9,13 @@ pub const PRESETS: &[Preset] = &[
         flags: "--channels a,b,charlie --y alpha --size 64 --precision f32",
         file: "AlbedoTable.exr",
         source: "AcademySoftwareFoundation/MaterialX: libraries/pbrlib/genglsl/lib/mx_table.glsl",
-        stored: "R = A, G = B, B = E of Charlie with Neubelt's visibility. A row is one alpha of both: \
-                 sheen's own roughness is not squared.",
+        stored: "R = A, G = B, B = E of Charlie with Neubelt's visibility. A row is one alpha of \
+                 both: sheen's own roughness is not squared.",
         lookup: "(n.v, alpha), for sheen (n.v, roughness)",
-        import: "lightHandler->setAlbedoTable(image), hwDirectionalAlbedoMethod = TABLE; linear, clamp.",
-        faults: "64 samples: A is off by up to 0.015. The fit that is the default errs by up to 0.11.",
+        import: "lightHandler->setAlbedoTable(image), hwDirectionalAlbedoMethod = TABLE; linear, \
+                 clamp.",
+        faults: "64 samples: A is off by up to 0.015. The fit that is the default errs by up to \
+                 0.11.",
     },
     Preset {
         name: "learnopengl",
@@ -23,9 +25,10 @@ pub const PRESETS: &[Preset] = &[
         source: "JoeyDeVries/LearnOpenGL: src/6.pbr/2.2.2.ibl_specular_textured/2.2.2.brdf.fs",
         stored: "R = A, G = B by Schlick's term with k = alpha/2, as RG16F; row 0 is smooth.",
         lookup: "(n.v, roughness)",
-        import: "glTexImage2D(GL_TEXTURE_2D, 0, GL_RG16F, 512, 512, 0, GL_RG, GL_HALF_FLOAT, data); \
-                 linear, clamp to the edge, no mips.",
-        faults: "Against the exact Smith term 0.042 on the average and 0.31 at the most; 1,024 samples.",
+        import: "glTexImage2D(GL_TEXTURE_2D, 0, GL_RG16F, 512, 512, 0, GL_RG, GL_HALF_FLOAT, \
+                 data); linear, clamp to the edge, no mips.",
+        faults: "Against the exact Smith term 0.042 on the average and 0.31 at the most; 1,024 \
+                 samples.",
     },
     Preset {
         name: "vtk",
@@ -35,8 +38,8 @@ pub const PRESETS: &[Preset] = &[
         source: "Kitware/VTK: Rendering/OpenGL2/vtkPBRLUTTexture.cxx",
         stored: "R = A, G = B by Schlick's term with k = alpha/2, as RG16 unorm; row 0 is smooth.",
         lookup: "(n.v, roughness)",
-        import: "No file is loaded: vtkTextureObject::Create2DFromRaw(512, 512, 2, VTK_UNSIGNED_SHORT, \
-                 data) in a class of your own.",
+        import: "No file is loaded: vtkTextureObject::Create2DFromRaw(512, 512, 2, \
+                 VTK_UNSIGNED_SHORT, data) in a class of your own.",
         faults: "Against the exact Smith term 0.042 on the average and 0.31 at the most.",
     },
 ];

@@ -246,8 +246,8 @@ const OFFSETS: RangeInclusive<f64> = -2.0..=2.0;
 pub const AXIS_WORDS: &str = "PARAMETER[,MAPPING][,NODES][,flip][,unclamped][,min=X][,max=X] with \
                               PARAMETER nov, roughness, alpha, exponent or (along z) f0; MAPPING \
                               linear, sqrt (t = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES \
-                              centres, edges or offset=X with X in [-2, 2]; min=X with X in [0, 1]; \
-                              max=X above 0, from min up";
+                              centres, edges or offset=X with X in [-2, 2]; min=X with X in [0, \
+                              1]; max=X above 0, from min up";
 
 impl FromStr for AxisSpec {
     type Err = Error;

@@ -16,8 +16,8 @@ const POINTS: usize = 65_536;
 /// Fields in one picture of four components.
 const FIELDS: usize = 4;
 
-/// The flags of a preset without its file, in a storage that a browser has: 16 bits of unorm need an
-/// extension that SwiftShader lacks.
+/// The flags of a preset without its file, in a storage that a browser has: 16 bits of unorm need
+/// an extension that SwiftShader lacks.
 fn flags(preset: &str) -> String {
     let own = presets().find(|known| known.name == preset).map(|preset| preset.flags);
     let mut kept = Vec::new();
@@ -72,9 +72,9 @@ fn filters(case: &Case) -> bool {
 }
 
 /// The largest difference of the exact function. 1e-6 where values change by no more than 1 from
-/// texel to texel, as A, B and E do: a coordinate in f32 is off by 2^-24 of the table's width, and so
-/// is the sum of four shares. Charlie's albedo changes by tens; a power of 2.2 in f32 is off by 1e-6
-/// of its value.
+/// texel to texel, as A, B and E do: a coordinate in f32 is off by 2^-24 of the table's width, and
+/// so is the sum of four shares. Charlie's albedo changes by tens; a power of 2.2 in f32 is off by
+/// 1e-6 of its value.
 fn exact(case: &Case) -> f64 {
     let largest = case.values.iter().fold(1.0f64, |a, b| a.max(b.abs()));
     let powers = if filters(case) { 0.0 } else { 2e-6 * largest };

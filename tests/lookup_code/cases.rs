@@ -33,8 +33,8 @@ pub const CASES: [(&str, &str); 11] = [
     ("plain", "--size 64 --precision f16"),
     (
         "packed",
-        "--channels b,e,burley*0.9655212-0.5 --x nov,sqrt,edges --y roughness,edges,flip --size 33x20 \
-         --precision f16",
+        "--channels b,e,burley*0.9655212-0.5 --x nov,sqrt,edges --y roughness,edges,flip --size \
+         33x20 --precision f16",
     ),
     (
         "tinted",

@@ -95,8 +95,8 @@ pub fn glslang() -> Result<(), Failed> {
         };
         for version in ["300 es", "330"] {
             let main = format!(
-                "#version {version}\nprecision highp float;\nprecision highp int;\n{uniform}\n{text}\n\
-                 out vec4 colour;\nvoid main() {{ SplitSum s = splitsum_exact({table}0.5, 0.5{}); \
+                "#version {version}\nprecision highp float;\nprecision highp int;\n{uniform}\n\
+                 {text}\nout vec4 colour;\nvoid main() {{ SplitSum s = splitsum_exact({table}0.5, 0.5{}); \
                  colour = vec4(float(s == s)); }}\n",
                 shape.third()
             );
@@ -123,8 +123,8 @@ fn hlsl(text: &str, above: bool, shape: Shape) -> String {
     let members = text.split("struct SplitSum {").nth(1).unwrap_or_default();
     let member = members.split("float ").nth(1).and_then(|rest| rest.split(';').next());
     format!(
-        "{text}\n{uniform}float4 main() : SV_Target {{ SplitSum n = splitsum_exact({table}0.5, 0.5{}); \
-         float4 c = n.{m}; {filtered} return c + n.{m}; }}\n",
+        "{text}\n{uniform}float4 main() : SV_Target {{ SplitSum n = splitsum_exact({table}0.5, \
+         0.5{}); float4 c = n.{m}; {filtered} return c + n.{m}; }}\n",
         shape.third(),
         m = member.unwrap_or_default()
     )

@@ -1,4 +1,5 @@
-//! Metal spheres by three.js with our table in place of its own: what a viewer sees of the exchange.
+//! Metal spheres by three.js with our table in place of its own: what a viewer sees of the
+//! exchange.
 
 use crate::cases::splitsum;
 use crate::common::printed;

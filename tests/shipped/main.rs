@@ -1,6 +1,6 @@
-//! The tables that engines ship, against ours in the same convention: three.js, Bevy, Babylon.js and
-//! Filament's cmgen. SPLITSUM_SHIPPED names the folder that tests/shipped/fetch has filled; without
-//! it the tests are reported as ignored, or fail where SPLITSUM_REQUIRE_READERS is set.
+//! The tables that engines ship, against ours in the same convention: three.js, Bevy, Babylon.js
+//! and Filament's cmgen. SPLITSUM_SHIPPED names the folder that tests/shipped/fetch has filled;
+//! without it the tests are reported as ignored, or fail where SPLITSUM_REQUIRE_READERS is set.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 #[path = "../common/mod.rs"]

@@ -129,8 +129,8 @@ fn every_precision(gpu: &Gpu) -> Result<(), Failed> {
     Ok(())
 }
 
-/// Channels of lobes that a device integrates, and of one that the CPU has in closed form; roughness
-/// from half a texel beyond 1 on.
+/// Channels of lobes that a device integrates, and of one that the CPU has in closed form;
+/// roughness from half a texel beyond 1 on.
 fn several_lobes(gpu: &Gpu) -> Result<(), Failed> {
     let x: Axis = Axis::new("nov,sqrt,edges,min=1e-3".parse()?, 24)?;
     let y: Axis = Axis::new("roughness,offset=1.5,flip,unclamped".parse()?, 24)?;

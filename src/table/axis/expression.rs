@@ -1,5 +1,5 @@
-//! Where a parameter lies along an axis, as an expression in the words of a language: the inverse of
-//! [`Axis::value`] where that does not clamp.
+//! Where a parameter lies along an axis, as an expression in the words of a language: the inverse
+//! of [`Axis::value`] where that does not clamp.
 
 use super::{Axis, Mapping, Nodes, Parameter};
 
