@@ -96,8 +96,8 @@ pub fn glslang() -> Result<(), Failed> {
         for version in ["300 es", "330"] {
             let main = format!(
                 "#version {version}\nprecision highp float;\nprecision highp int;\n{uniform}\n\
-                 {text}\nout vec4 colour;\nvoid main() {{ SplitSum s = splitsum_exact({table}0.5, 0.5{}); \
-                 colour = vec4(float(s == s)); }}\n",
+                 {text}\nout vec4 colour;\nvoid main() {{ SplitSum s = \
+                 splitsum_exact({table}0.5, 0.5{}); colour = vec4(float(s == s)); }}\n",
                 shape.third()
             );
             check("code.frag", &main, &[])?;
