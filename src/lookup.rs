@@ -188,6 +188,12 @@ impl Lookup<'_> {
         })
     }
 
+    /// What is said of the table, as a comment.
+    fn heading(&self) -> String {
+        let line = |line: &String| format!("// {line}").trim_end().to_owned();
+        self.about.iter().map(line).collect::<Vec<_>>().join("\n")
+    }
+
     /// A name with the prefix.
     fn prefixed(&self, name: &str) -> String {
         format!("{}_{name}", self.prefix)

@@ -305,8 +305,7 @@ impl fmt::Display for Request {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Layout { x, y, slices, .. } = &self.layout;
         let main = self.packing.main();
-        let family = if self.packing.is_picked() { "dfg" } else { main.name() };
-        write!(f, "splitsum bake --lut {family} {}", self.packing.flags())?;
+        write!(f, "splitsum bake {}", self.packing.flags())?;
         let spec = slices.as_ref().and_then(Slices::spec);
         match (slices, spec, main.f0()) {
             (Some(slices), None, _) => {

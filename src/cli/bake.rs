@@ -93,8 +93,7 @@ pub fn run(arguments: BakeArgs) -> Result<()> {
         return print_plans(&jobs, &backend);
     }
     // Last, since it makes the folder of the default output.
-    let lookups = jobs.iter().filter_map(|job| job.lookup.as_ref().map(|(name, _)| name));
-    for name in jobs.iter().map(|job| &job.output).chain(lookups).chain(&depfile) {
+    for name in jobs.iter().flat_map(Job::files).chain(depfile.as_deref()) {
         output::check(name)?;
     }
     if arguments.json {
@@ -103,12 +102,7 @@ pub fn run(arguments: BakeArgs) -> Result<()> {
     let tables: Vec<Vec<Baked>> =
         jobs.iter().map(|job| bake(job, &backend, &arguments)).collect::<Result<_>>()?;
     if let Some(depfile) = depfile {
-        let files = |job: &'_ Job| {
-            let lookup = job.lookup.as_ref().map(|(name, _)| name.clone());
-            [Some(job.output.clone()), lookup].into_iter().flatten()
-        };
-        let outputs: Vec<String> = jobs.iter().flat_map(files).collect();
-        let outputs: Vec<&str> = outputs.iter().map(String::as_str).collect();
+        let outputs: Vec<&str> = jobs.iter().flat_map(Job::files).collect();
         let targets = arguments.mt.as_ref().map_or(outputs, |target| vec![target]);
         output::write(&depfile, depfile::rule(&targets, arguments.config.as_deref()).as_bytes())?;
     }

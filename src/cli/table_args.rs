@@ -192,6 +192,12 @@ pub struct Job {
 }
 
 impl Job {
+    /// The files that it writes.
+    pub fn files(&self) -> impl Iterator<Item = &str> {
+        let lookup = self.lookup.as_ref().map(|(name, _)| name.as_str());
+        [self.output.as_str()].into_iter().chain(lookup)
+    }
+
     /// The command that repeats the file, but for its name.
     pub fn command(&self) -> String {
         self.encoding.command(&self.request.to_string(), self.request.precision())
@@ -252,7 +258,7 @@ impl TableArgs {
         let lut = packing.main();
         if lut.f0().is_none() && (self.f0.is_some() || self.ior.is_some()) {
             let what = if self.ior.is_some() { "ior" } else { "f0" };
-            let got = format!("--lut {} {}", lut.name(), packing.flags());
+            let got = packing.flags().to_owned();
             let cure = "leave it out: no other table depends on F0";
             return Err(Error::bad_input(what, "the split of energy beside it", got, cure));
         }

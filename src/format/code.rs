@@ -81,7 +81,7 @@ pub fn wgsl(texels: &Texels, file: &mut dyn WriteSeek) -> Result<()> {
 /// GLSL.
 pub fn glsl(texels: &Texels, file: &mut dyn WriteSeek) -> Result<()> {
     let array: Array = |element, name, length, members| {
-        let kind = if element == Element::Float { "float" } else { "uint" };
+        let kind = float_or_uint(element);
         format!("const {kind} {name}[{length}] = {kind}[{length}](\n{members}\n);\n")
     };
     write(texels, file, Some(Language::Glsl), floats(texels), array, ["", "", ""])
@@ -90,7 +90,7 @@ pub fn glsl(texels: &Texels, file: &mut dyn WriteSeek) -> Result<()> {
 /// HLSL.
 pub fn hlsl(texels: &Texels, file: &mut dyn WriteSeek) -> Result<()> {
     let array: Array = |element, name, length, members| {
-        let kind = if element == Element::Float { "float" } else { "uint" };
+        let kind = float_or_uint(element);
         format!("static const {kind} {name}[{length}] = {{\n{members}\n}};\n")
     };
     write(texels, file, Some(Language::Hlsl), floats(texels), array, ["", "", ""])
@@ -99,7 +99,7 @@ pub fn hlsl(texels: &Texels, file: &mut dyn WriteSeek) -> Result<()> {
 /// Metal.
 pub fn metal(texels: &Texels, file: &mut dyn WriteSeek) -> Result<()> {
     let array: Array = |element, name, length, members| {
-        let kind = if element == Element::Float { "float" } else { "uint" };
+        let kind = float_or_uint(element);
         format!("constant {kind} {name}[{length}] = {{\n{members}\n}};\n")
     };
     write(texels, file, Some(Language::Msl), floats(texels), array, ["", "", ""])
@@ -139,6 +139,11 @@ fn place(element: Element) -> usize {
         Element::Whole(_) | Element::Bits | Element::UnsignedBits => 2,
         Element::Float => 3,
     }
+}
+
+/// The type of an element in the shading languages that are like C.
+fn float_or_uint(element: Element) -> &'static str {
+    if element == Element::Float { "float" } else { "uint" }
 }
 
 /// A typed array of JavaScript; floats by their bits are read from the buffer of those.

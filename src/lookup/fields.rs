@@ -32,6 +32,32 @@ pub enum From {
     Difference(&'static str, &'static str),
 }
 
+impl Field {
+    /// Its value as an expression of the texel's components and of the numbers before it.
+    pub(super) fn value(
+        &self,
+        component: impl Fn(usize) -> String,
+        number: fn(f64) -> String,
+    ) -> String {
+        match &self.from {
+            From::Sum(a, b) => format!("numbers.{a} + numbers.{b}"),
+            From::Difference(a, b) => format!("numbers.{a} - numbers.{b}"),
+            // Brackets, since a number may have a sign.
+            &From::Component { index, scale, offset } => {
+                let component = component(index);
+                match (scale, offset) {
+                    (1.0, 0.0) => component,
+                    (1.0, offset) => format!("{component} - ({})", number(offset)),
+                    (scale, 0.0) => format!("{component} / ({})", number(scale)),
+                    (scale, offset) => {
+                        format!("({component} - ({})) / ({})", number(offset), number(scale))
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// The numbers of a table.
 pub fn fields(layout: &Layout) -> Vec<Field> {
     let mut fields: Vec<Field> = Vec::new();

@@ -1,7 +1,7 @@
 //! Lookup code in C and Rust: on an array of the stored numbers, row by row. What a sampler needs
 //! is its texture coordinate.
 
-use super::fields::{Field, From};
+use super::fields::Field;
 use super::{Lookup, Store, place};
 use crate::table::axis::Words;
 use crate::table::precision::Precision;
@@ -20,7 +20,6 @@ struct Host {
     float: fn(&str) -> String,
     /// The float of 32 bits.
     float_of_bits: &'static str,
-    comment: &'static str,
 }
 
 const C: Host = Host {
@@ -35,7 +34,6 @@ const C: Host = Host {
     min: |x, y| format!("fminf({x}, {y})"),
     float: |x| format!("(float)({x})"),
     float_of_bits: "PREFIX_float",
-    comment: "//",
 };
 
 const RUST: Host = Host {
@@ -50,7 +48,6 @@ const RUST: Host = Host {
     min: |x, y| format!("f32::min({x}, {y})"),
     float: |x| format!("({x}) as f32"),
     float_of_bits: "f32::from_bits",
-    comment: "//",
 };
 
 impl Host {
@@ -110,32 +107,18 @@ impl Host {
         places
     }
 
-    /// The value of a field from the blended components.
-    fn field(&self, field: &Field) -> String {
-        let number = self.words.number;
-        match &field.from {
-            From::Sum(a, b) => format!("numbers.{a} + numbers.{b}"),
-            From::Difference(a, b) => format!("numbers.{a} - numbers.{b}"),
-            &From::Component { index, scale, offset } => match (scale, offset) {
-                (1.0, 0.0) => format!("texel[{index}]"),
-                (scale, offset) => {
-                    format!("(texel[{index}] - ({})) / ({})", number(offset), number(scale))
-                }
-            },
-        }
-    }
-
-    fn heading(&self, lookup: &Lookup) -> String {
-        lookup
-            .about
-            .iter()
-            .map(|line| format!("{} {line}", self.comment).trim_end().to_owned() + "\n")
-            .collect()
+    /// The fields from the blended components, line by line.
+    fn assignments(&self, fields: &[Field]) -> String {
+        let line = |field: &Field| {
+            let value = field.value(|index| format!("texel[{index}]"), self.words.number);
+            format!("    numbers.{} = {value};\n", field.name)
+        };
+        fields.iter().map(line).collect()
     }
 }
 
 /// Elements of a texel in the array.
-pub fn elements(lookup: &Lookup) -> usize {
+fn elements(lookup: &Lookup) -> usize {
     if lookup.precision == Precision::A2b10g10r10 { 1 } else { lookup.components }
 }
 
@@ -144,18 +127,21 @@ fn stored(lookup: &Lookup) -> usize {
     lookup.layout.channels.len()
 }
 
-/// The index of a texel's first element.
-fn index(lookup: &Lookup) -> String {
+/// The index of a texel's first element, by the names of its column, row and slice.
+fn index(lookup: &Lookup, [column, row, slice]: [&str; 3]) -> String {
     let (width, height) = (lookup.layout.x.size(), lookup.layout.y.size());
-    let row = if lookup.depth() > 1 { format!("(k * {height} + j)") } else { "j".into() };
-    format!("({row} * {width} + i) * {}", elements(lookup))
+    let row = match lookup.depth() {
+        1 => row.to_owned(),
+        _ => format!("({slice} * {height} + {row})"),
+    };
+    format!("({row} * {width} + {column}) * {}", elements(lookup))
 }
 
 /// The lookup in C.
 pub fn c(lookup: &Lookup, fields: &[Field], store: Store) -> String {
     let (host, numbers, prefix) = (&C, lookup.numbers(), lookup.prefix);
     let element = host.element(lookup);
-    let mut code = host.heading(lookup);
+    let mut code = lookup.heading() + "\n";
     if store == Store::Passed {
         code += "\n#include <math.h>\n#include <stdint.h>\n#include <string.h>\n";
     }
@@ -173,10 +159,7 @@ pub fn c(lookup: &Lookup, fields: &[Field], store: Store) -> String {
         .map(|(name, place)| format!("    float {name} = {place};\n"))
         .collect();
     let (width, height) = (lookup.layout.x.size(), lookup.layout.y.size());
-    let assignments: String = fields
-        .iter()
-        .map(|field| format!("    numbers.{} = {};\n", field.name, host.field(field)))
-        .collect();
+    let assignments = host.assignments(fields);
     let (parameter, table) = match store {
         Store::Passed => (format!("const {element} *table, "), "table"),
         Store::Above => (String::new(), lookup.array),
@@ -191,8 +174,6 @@ pub fn c(lookup: &Lookup, fields: &[Field], store: Store) -> String {
             format!("        int slice = k + behind < {depth} ? k + behind : k;\n"),
         ],
     };
-    let at = index(lookup).replace("(k *", "(slice *").replace("+ j)", "+ row)");
-    let at = at.replace("(j *", "(row *").replace("+ i)", "+ column)");
     let _ = write!(
         code,
         "
@@ -223,6 +204,7 @@ static inline void {prefix}_uv(float nov, float roughness, float uv[2]) {{
 ",
         stored = stored(lookup),
         corners = if depth > 1 { 8 } else { 4 },
+        at = index(lookup, ["column", "row", "slice"]),
         value = host.value(lookup, table, "c"),
         u = place::uv(&lookup.layout.x, &host.words),
         v = place::uv(&lookup.layout.y, &host.words),
@@ -234,7 +216,7 @@ static inline void {prefix}_uv(float nov, float roughness, float uv[2]) {{
 pub fn rust(lookup: &Lookup, fields: &[Field], store: Store) -> String {
     let (host, numbers, prefix) = (&RUST, lookup.numbers(), lookup.prefix);
     let element = host.element(lookup);
-    let mut code = host.heading(lookup);
+    let mut code = lookup.heading() + "\n";
     let members: String = fields
         .iter()
         .map(|field| format!("    /// {}\n    pub {}: f32,\n", field.meaning, field.name))
@@ -263,10 +245,7 @@ pub fn rust(lookup: &Lookup, fields: &[Field], store: Store) -> String {
             format!("        let k = (k + behind).min({});\n", depth - 1),
         ],
     };
-    let assignments: String = fields
-        .iter()
-        .map(|field| format!("    numbers.{} = {};\n", field.name, host.field(field)))
-        .collect();
+    let assignments = host.assignments(fields);
     let (parameter, table) = match store {
         Store::Passed => (format!("table: &[{element}], "), "table"),
         Store::Above => (String::new(), lookup.array),
@@ -305,7 +284,7 @@ pub fn rust(lookup: &Lookup, fields: &[Field], store: Store) -> String {
         corners = if depth > 1 { 8 } else { 4 },
         width = lookup.layout.x.size() - 1,
         height = lookup.layout.y.size() - 1,
-        at = index(lookup),
+        at = index(lookup, ["i", "j", "k"]),
         value = host.value(lookup, table, "c"),
         u = place::uv(&lookup.layout.x, &host.words),
         v = place::uv(&lookup.layout.y, &host.words),

@@ -1,6 +1,6 @@
 //! Lookup code in shading languages: one text, in the words of each.
 
-use super::fields::{Field, From};
+use super::fields::Field;
 use super::syntax::{GLSL, HLSL, MSL, Shape, Syntax, WGSL};
 use super::{Language, Lookup, Store, place};
 use crate::table::precision::Precision;
@@ -27,13 +27,13 @@ struct Shader<'a> {
 
 /// The struct of numbers and the functions that look them up.
 pub fn code(lookup: &Lookup, fields: &[Field], language: Language, store: Store) -> String {
-    let shape = match (&lookup.layout.slices, lookup.slices_as) {
+    let shape = match (lookup.third(), lookup.slices_as) {
         (None, _) => Shape::Plane,
         (Some(_), SlicesAs::Layers) => Shape::Layers,
         (Some(_), SlicesAs::Depth) => Shape::Volume,
     };
     let shader = Shader { lookup, fields, syntax: syntax(language), store, shape };
-    let mut parts = vec![shader.heading(), shader.numbers(), shader.unpack(), shader.place()];
+    let mut parts = vec![lookup.heading(), shader.numbers(), shader.unpack(), shader.place()];
     parts.push(shader.texel());
     if store == Store::Passed && lookup.filters() {
         parts.push(shader.filtered());
@@ -43,11 +43,6 @@ pub fn code(lookup: &Lookup, fields: &[Field], language: Language, store: Store)
 }
 
 impl Shader<'_> {
-    fn heading(&self) -> String {
-        let about = self.lookup.about.iter();
-        about.map(|line| format!("// {line}").trim_end().to_owned()).collect::<Vec<_>>().join("\n")
-    }
-
     /// A function of the table: what it says of itself, its type, its name, its parameters besides
     /// the table, its lines.
     fn function(
@@ -111,23 +106,8 @@ impl Shader<'_> {
     }
 
     fn assignment(&self, field: &Field) -> String {
-        let number = self.syntax.words.number;
-        let value = match &field.from {
-            From::Sum(a, b) => format!("numbers.{a} + numbers.{b}"),
-            From::Difference(a, b) => format!("numbers.{a} - numbers.{b}"),
-            &From::Component { index, scale, offset } => {
-                let component = format!("texel.{}", ["x", "y", "z", "w"][index]);
-                match (scale, offset) {
-                    (1.0, 0.0) => component,
-                    (1.0, offset) => format!("{component} - ({})", number(offset)),
-                    (scale, 0.0) => format!("{component} / {}", positive(number(scale))),
-                    (scale, offset) => {
-                        let shifted = format!("({component} - ({}))", number(offset));
-                        format!("{shifted} / {}", positive(number(scale)))
-                    }
-                }
-            }
-        };
+        let component = |index: usize| format!("texel.{}", ["x", "y", "z", "w"][index]);
+        let value = field.value(component, self.syntax.words.number);
         format!("numbers.{} = {value};", field.name)
     }
 
@@ -310,9 +290,4 @@ impl Shader<'_> {
             (syntax.local)(syntax.float, "weight", &format!("z - {}(k)", syntax.float)),
         ]
     }
-}
-
-/// A number in brackets where it has a sign.
-fn positive(number: String) -> String {
-    if number.starts_with('-') { format!("({number})") } else { number }
 }

@@ -1,6 +1,6 @@
 //! The four shading languages in words: what differs between them, and nothing else.
 
-use crate::table::axis::Words;
+use crate::table::axis::{SHADING, Words};
 
 /// The shape of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,16 +47,9 @@ pub struct Syntax {
     pub float_of_bits: &'static str,
 }
 
-const WORDS: Words = Words {
-    sqrt: |x| format!("sqrt({x})"),
-    log2: |x| format!("log2({x})"),
-    max: |x, y| format!("max({x}, {y})"),
-    number: |x| format!("{x:?}"),
-};
-
 /// What C, C++ and their shading languages have in common.
 const C_LIKE: Syntax = Syntax {
-    words: WORDS,
+    words: SHADING,
     float: "float",
     float2: "float2",
     float3: "float3",
@@ -121,7 +114,7 @@ pub const HLSL: Syntax = Syntax {
 pub const MSL: Syntax = Syntax {
     // A header may be in several files.
     function: |kind, name, parameters| format!("static inline {kind} {name}({parameters}) {{"),
-    words: Words { number: |x| format!("{x:?}f"), ..WORDS },
+    words: Words { number: |x| format!("{x:?}f"), ..SHADING },
     mix: "mix",
     texture: |shape| match shape {
         Shape::Plane => "texture2d<float>",
@@ -144,7 +137,7 @@ pub const MSL: Syntax = Syntax {
 };
 
 pub const WGSL: Syntax = Syntax {
-    words: WORDS,
+    words: SHADING,
     float: "f32",
     float2: "vec2<f32>",
     float3: "vec3<f32>",

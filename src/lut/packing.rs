@@ -44,10 +44,8 @@ pub struct Content {
 pub struct Packing {
     luts: Vec<Lut>,
     contents: Vec<Content>,
-    /// Lobe and channels as flags.
+    /// Family, lobe and channels as flags.
     flags: String,
-    /// Whether the contents are picked from tables, and not all of one.
-    picked: bool,
 }
 
 /// One of the tables of a packing, and the channels of a texel that it fills.
@@ -82,12 +80,16 @@ impl From<Lut> for Packing {
     fn from(lut: Lut) -> Self {
         let of = |channel| Content::of(Source::Of { part: 0, channel });
         let contents = (0..lut.channels().len()).map(of).collect();
-        Packing { luts: vec![lut], contents, flags: lut.flags(), picked: false }
+        Packing {
+            luts: vec![lut],
+            contents,
+            flags: format!("--lut {} {}", lut.name(), lut.flags()),
+        }
     }
 }
 
 impl Packing {
-    /// These contents of these tables, the main one first; `flags`: lobe and channels as flags.
+    /// These contents of these tables, the main one first; `flags`: they as flags.
     pub(super) fn new(luts: Vec<Lut>, contents: Vec<Content>, flags: String) -> Result<Self> {
         if !(1..=MOST_CHANNELS).contains(&contents.len()) {
             let expected = format!("1 to {MOST_CHANNELS} of them");
@@ -106,7 +108,7 @@ impl Packing {
             let expected = "scales and offsets that f32 holds, and no scale of 0";
             return Err(Error::bad_input("channels", expected, got, "give other numbers"));
         }
-        let packing = Packing { luts, contents, flags, picked: true };
+        let packing = Packing { luts, contents, flags };
         let fills = |part: &Part| !part.picks.is_empty();
         if packing.luts.is_empty() || !packing.parts().iter().all(fills) {
             let (expected, got) = ("at least one integral", "none");
@@ -120,14 +122,9 @@ impl Packing {
         &self.luts[0]
     }
 
-    /// Lobe and channels as flags.
+    /// Family, lobe and channels as flags.
     pub fn flags(&self) -> &str {
         &self.flags
-    }
-
-    /// Whether the contents are picked from tables, and not all of one.
-    pub fn is_picked(&self) -> bool {
-        self.picked
     }
 
     /// All tables.
@@ -158,8 +155,7 @@ impl Packing {
         let as_it_is = |(i, pick): (usize, &Pick)| {
             pick.channel == i && pick.scale == 1.0 && pick.offset == 0.0
         };
-        let plain = picks.len() == lut.channels().len()
-            && picks.iter().enumerate().all(|(i, pick)| as_it_is((i, pick)));
+        let plain = picks.len() == lut.channels().len() && picks.iter().enumerate().all(as_it_is);
         // No channel of a table is negative.
         let end = if lut.at_most_one() { 1.0 } else { f64::INFINITY };
         let mut ranges = [(0.0, end); MOST_CHANNELS];

@@ -44,10 +44,7 @@ pub fn packing(lobe: Microfacet, fresnel: Fresnel, words: &str) -> Result<Packin
             let what = format!("channels of {fresnel}");
             return Err(Error::bad_input(what, expected, format!("'{word}'"), "use those words"));
         };
-        let source = match table(lobe, fresnel, quantity)? {
-            Ok((lut, channel)) => Source::Of { part: place(&mut luts, lut), channel },
-            Err(filler) => filler,
-        };
+        let source = source((lobe, fresnel), quantity, &mut luts)?;
         contents.push(Content { source, scale, offset });
     }
     let own = Dfg::new(lobe, fresnel, DfgChannels::All)?;
@@ -57,7 +54,7 @@ pub fn packing(lobe: Microfacet, fresnel: Fresnel, words: &str) -> Result<Packin
         true => format!("--channels='{words}'"),
         false => format!("--channels {words}"),
     };
-    let packing = Packing::new(luts, contents, format!("{} {quoted}", own.lobe_flags()))?;
+    let packing = Packing::new(luts, contents, format!("--lut dfg {} {quoted}", own.lobe_flags()))?;
     // A list that is all of a table has that table's name.
     Ok(named(&packing).unwrap_or(packing))
 }
@@ -81,27 +78,26 @@ fn named(packing: &Packing) -> Option<Packing> {
         .find(|plain| plain.channels() == packing.channels())
 }
 
-/// The table that has a quantity and its channel there, or the filler that it is.
-fn table(
-    lobe: Microfacet,
-    fresnel: Fresnel,
+/// The source of a quantity of this lobe and Fresnel model; the table that has it is added to those
+/// where it is missing.
+fn source(
+    (lobe, fresnel): (Microfacet, Fresnel),
     quantity: Quantity,
-) -> Result<std::result::Result<(Lut, usize), Source>> {
-    let every = |lobe, fresnel, channel| {
-        let dfg = Dfg::new(lobe, fresnel, DfgChannels::Every)?;
-        Ok(Ok((Lut::Dfg(dfg), channel)))
-    };
-    match quantity {
-        Quantity::Integral(integral) => every(lobe, fresnel, integral),
-        Quantity::Albedo => every(lobe, fresnel, fresnel.count()),
-        Quantity::AlbedoOf(other) => every(other, Fresnel::Schlick, Fresnel::Schlick.count()),
+    luts: &mut Vec<Lut>,
+) -> Result<Source> {
+    let every = |lobe, fresnel| Dfg::new(lobe, fresnel, DfgChannels::Every).map(Lut::Dfg);
+    let (lut, channel) = match quantity {
+        Quantity::Integral(integral) => (every(lobe, fresnel)?, integral),
+        Quantity::Albedo => (every(lobe, fresnel)?, fresnel.count()),
+        Quantity::AlbedoOf(other) => (every(other, Fresnel::Schlick)?, Fresnel::Schlick.count()),
         Quantity::Average(channel) => {
             let energy = Energy::new(lobe, F0::new(0.0)?, EnergyChannels::Average)?;
-            Ok(Ok((Lut::Energy(energy), channel)))
+            (Lut::Energy(energy), channel)
         }
-        Quantity::Diffuse(diffuse) => Ok(Ok((Lut::Diffuse(diffuse), 0))),
-        Quantity::Filler(source) => Ok(Err(source)),
-    }
+        Quantity::Diffuse(diffuse) => (Lut::Diffuse(diffuse), 0),
+        Quantity::Filler(source) => return Ok(source),
+    };
+    Ok(Source::Of { part: place(luts, lut), channel })
 }
 
 /// Quantity, scale and offset of a term; none where there is no such word.

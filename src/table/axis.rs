@@ -7,7 +7,7 @@
 
 mod expression;
 
-pub use expression::Words;
+pub use expression::{SHADING, Words};
 
 use crate::choice::{Choice, choice};
 use crate::error::{Error, Result};

@@ -20,7 +20,7 @@ use splitsum::lut::{Dfg, DfgChannels, Lut, Part};
 use splitsum::numeric::half;
 use splitsum::numeric::quadrature::tanh_sinh::tanh_sinh;
 use splitsum::table::claim::{Certificate, Stage};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 pub fn ggx(masking: Masking) -> Microfacet {
@@ -244,6 +244,18 @@ pub fn with_program(
         Ok(_) => Trial::test(name, test),
         Err(_) => missing(READERS, name.into(), format!("{program} is not installed")),
     }
+}
+
+/// A test by Node.js or a browser with the modules of tests/web.
+pub fn with_modules(
+    name: &str,
+    test: impl FnOnce() -> Result<(), Failed> + Send + 'static,
+) -> Trial {
+    if Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/web/node_modules").is_dir() {
+        return Trial::test(name, test);
+    }
+    let reason = "tests/web/node_modules is missing: run npm ci there".to_owned();
+    missing(READERS, name.into(), reason)
 }
 
 /// What a command prints; an error with what it says where it fails.

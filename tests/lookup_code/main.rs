@@ -12,12 +12,11 @@ mod compilers;
 mod native;
 mod spheres;
 
-use common::{READERS, missing, with_named, with_program};
-use libtest_mimic::{Arguments, Failed, Trial};
-use std::path::Path;
+use common::{with_modules, with_named, with_program};
+use libtest_mimic::{Arguments, Trial};
 
 fn main() {
-    let mut trials = vec![
+    let trials = vec![
         Trial::test("fields undo what channels were scaled by", cases::fields_are_the_integrals),
         Trial::test("further functions need their numbers", compilers::extras_need_their_numbers),
         Trial::test("naga takes WGSL", compilers::naga_takes_wgsl),
@@ -27,21 +26,11 @@ fn main() {
         with_program("g++", "g++ takes Metal's words, and they give the values", native::metal),
         with_program("glslangValidator", "glslang takes GLSL and HLSL", compilers::glslang),
         with_named("SPLITSUM_SLANGC", "slangc takes HLSL", |slangc| compilers::slangc(&slangc)),
-    ];
-    let modules = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/web/node_modules");
-    let in_browser = |name: &str, test: fn() -> Result<(), Failed>| match modules.is_dir() {
-        true => Trial::test(name, test),
-        false => {
-            let reason = "tests/web/node_modules is missing: run npm ci there".to_owned();
-            missing(READERS, name.into(), reason)
-        }
-    };
-    trials.extend([
-        in_browser(
+        with_modules(
             "a browser reads every preset's table, by WebGL2 and by WebGPU",
             browser::every_preset,
         ),
-        in_browser("three.js renders the same spheres with our table", spheres::are_the_same),
-    ]);
+        with_modules("three.js renders the same spheres with our table", spheres::are_the_same),
+    ];
     libtest_mimic::run(&Arguments::from_args(), trials).exit();
 }

@@ -10,13 +10,11 @@ mod files;
 mod python;
 mod web;
 
-use common::{READERS, missing, with_named};
-use libtest_mimic::{Arguments, Trial};
-use std::path::Path;
+use common::{with_modules, with_named};
+use libtest_mimic::Arguments;
 
 fn main() {
-    let web = "ktx-parse, three.js and Babylon.js read what they can, and the docs say the rest";
-    let mut trials = vec![
+    let trials = vec![
         with_named(
             "SPLITSUM_PYTHON",
             "OpenEXR, OpenImageIO, NumPy, Pillow and Panda3D read every value",
@@ -32,14 +30,10 @@ fn main() {
             "the crates ktx2 and dds and Bevy's loader read every value",
             |program| crates::read_everything(&program),
         ),
+        with_modules(
+            "ktx-parse, three.js and Babylon.js read what they can, and the docs say the rest",
+            web::read_everything,
+        ),
     ];
-    let modules = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/web/node_modules");
-    trials.push(match modules.is_dir() {
-        true => Trial::test(web, web::read_everything),
-        false => {
-            let reason = "tests/web/node_modules is missing: run npm ci there".to_owned();
-            missing(READERS, web.into(), reason)
-        }
-    });
     libtest_mimic::run(&Arguments::from_args(), trials).exit();
 }

@@ -47,13 +47,7 @@ impl Axis {
     /// inverse of [`Axis::value`] where that does not clamp. The same text is valid in WGSL, GLSL,
     /// HLSL and Metal. The variable of an exponent is n itself.
     pub fn uv(&self, p: &str) -> String {
-        let words = Words {
-            sqrt: |x| format!("sqrt({x})"),
-            log2: |x| format!("log2({x})"),
-            max: |x, y| format!("max({x}, {y})"),
-            number: |x| format!("{x:?}"),
-        };
-        self.uv_at(p, &words)
+        self.uv_at(p, &SHADING)
     }
 
     /// The same in the words of a language.
@@ -76,6 +70,14 @@ pub struct Words {
     /// A number.
     pub number: fn(f64) -> String,
 }
+
+/// The words of WGSL, GLSL, HLSL and Metal.
+pub const SHADING: Words = Words {
+    sqrt: |x| format!("sqrt({x})"),
+    log2: |x| format!("log2({x})"),
+    max: |x, y| format!("max({x}, {y})"),
+    number: |x| format!("{x:?}"),
+};
 
 /// `t` times a scale plus an offset.
 fn affine(t: &str, (scale, offset): (f64, f64), words: &Words) -> String {
