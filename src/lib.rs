@@ -45,6 +45,7 @@
 //! - `bake`: the plan of a bake and its execution
 //! - `lookup`: code that looks a table up, in six languages
 //! - `format`: a table as the bytes of a file
+//! - `approximation`: shapes with few numbers that follow the integrals over a region
 //! - `preset`: the tables that engines expect, as flags
 //! - `furnace`: the energy that a material gives back in a white furnace
 //! - `preview`: spheres lit with tables and with integrals
@@ -87,6 +88,9 @@ pub mod bake;
 pub mod lookup;
 #[doc(hidden)]
 pub mod format;
+#[doc(hidden)]
+#[cfg(feature = "cli")]
+pub mod approximation;
 #[doc(hidden)]
 #[cfg(feature = "cli")]
 pub mod preset;

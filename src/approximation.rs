@@ -1,0 +1,63 @@
+//! Approximations of the integrals E(F0) of a lobe over a region of (n·v, roughness, F0): shapes with
+//! few numbers, evaluated as a shader does. A table of integrals is right at its nodes; an
+//! approximation is judged by what a lookup gives anywhere in its region.
+
+pub mod channels;
+pub mod numbers;
+pub mod place;
+pub mod shape;
+
+pub use channels::Channels;
+pub use numbers::{Numbers, Storage};
+pub use place::{Across, Along};
+pub use shape::Shape;
+
+use crate::brdf::Microfacet;
+use crate::numeric::lanes::Vector;
+
+/// The n·v and the roughnesses that a lookup is right for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Region {
+    /// n·v lies between this and 1.
+    pub least_nov: f64,
+    /// Perceptual roughness lies between these; they are equal for a constant.
+    pub roughness: [f64; 2],
+}
+
+/// An approximation: its shape and its numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Approximation {
+    /// The lobe whose integrals it follows.
+    pub lobe: Microfacet,
+    /// Where it does so.
+    pub region: Region,
+    /// What its numbers stand for.
+    pub channels: Channels,
+    /// The functions that its numbers are factors of.
+    pub shape: Shape,
+    /// Those factors, for each channel.
+    pub numbers: Vec<Numbers>,
+}
+
+impl Approximation {
+    /// The channels at these (n·v, perceptual roughness), in the arithmetic of a shader.
+    pub fn at<V: Vector>(&self, nov: V, roughness: V) -> [V; 2] {
+        let mut channels = [V::from(0.0); 2];
+        for (channel, numbers) in channels.iter_mut().zip(&self.numbers) {
+            *channel = self.shape.sum(&self.region, numbers, nov, roughness);
+        }
+        channels
+    }
+
+    /// The albedo E(F0) at these places.
+    pub fn albedo<V: Vector>(&self, nov: V, roughness: V, f0: V) -> V {
+        let weights = self.channels.weights(nov, f0);
+        let channels = self.at(nov, roughness);
+        weights[0] * channels[0] + weights[1] * channels[1]
+    }
+
+    /// Bytes of its numbers.
+    pub fn bytes(&self) -> usize {
+        self.numbers.iter().map(Numbers::bytes).sum()
+    }
+}

@@ -1,0 +1,115 @@
+//! Coordinates in which the integrals are smooth: along n·v and across roughness.
+
+use super::Region;
+use crate::error::{Error, Result};
+use crate::numeric::lanes::Real;
+
+/// A coordinate along n·v, 0 at the least n·v or at 0, 1 at n·v = 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Along {
+    /// n·v
+    Nov,
+    /// √(n·v)
+    Sqrt,
+    /// ∛(n·v)
+    Cbrt,
+    /// T = √(μ(1 + kα)/(μ + kα)) with μ = n·v. Near n·v = α = 0 the integrals are functions of n·v/α
+    /// alone: T resolves that layer, whatever α.
+    Layer(f64),
+}
+
+/// A coordinate across perceptual roughness r.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Across {
+    /// r
+    Linear,
+    /// √r
+    Sqrt,
+    /// r^p
+    Power(f64),
+}
+
+/// Keeps the quotient 0/0 of [`Along::Layer`] at n·v = α = 0 at 0.
+pub const TINY: f64 = 1e-30;
+
+impl Along {
+    /// The coordinate where n·v is counted from `least`.
+    pub fn at<R: Real>(self, least: f64, nov: R, roughness: R) -> R {
+        let nov = match least {
+            0.0 => nov,
+            _ => (nov - least).max(R::from(0.0)) * (1.0 / (1.0 - least)),
+        };
+        match self {
+            Along::Nov => nov,
+            Along::Sqrt => nov.sqrt(),
+            Along::Cbrt => nov.zip(nov, |nov, _| libm::cbrt(nov)),
+            Along::Layer(k) => {
+                let width = roughness * roughness * k;
+                (nov * (width + 1.0) / (nov + width).max(R::from(TINY))).sqrt()
+            }
+        }
+    }
+
+    /// Its word in files.
+    pub fn word(self) -> String {
+        match self {
+            Along::Nov => "nov".into(),
+            Along::Sqrt => "sqrt".into(),
+            Along::Cbrt => "cbrt".into(),
+            Along::Layer(k) => format!("layer={k}"),
+        }
+    }
+
+    /// The coordinate with this word.
+    pub fn named(word: &str) -> Result<Self> {
+        match word {
+            "nov" => Ok(Along::Nov),
+            "sqrt" => Ok(Along::Sqrt),
+            "cbrt" => Ok(Along::Cbrt),
+            _ => parameter(word, "layer=", "nov, sqrt, cbrt or layer=K").map(Along::Layer),
+        }
+    }
+}
+
+impl Across {
+    /// r^p
+    pub fn of<R: Real>(self, roughness: R) -> R {
+        match self {
+            Across::Linear => roughness,
+            Across::Sqrt => roughness.sqrt(),
+            Across::Power(p) => roughness.zip(roughness, |r, _| libm::pow(r, p)),
+        }
+    }
+
+    /// The coordinate from 0 at the smoothest to 1 at the roughest of a region, not clamped.
+    pub fn at<R: Real>(self, region: &Region, roughness: R) -> R {
+        let [low, high] = region.roughness.map(|end| self.of::<f64>(end));
+        (self.of(roughness) - low) * (1.0 / (high - low))
+    }
+
+    /// Its word in files.
+    pub fn word(self) -> String {
+        match self {
+            Across::Linear => "roughness".into(),
+            Across::Sqrt => "sqrt".into(),
+            Across::Power(p) => format!("power={p}"),
+        }
+    }
+
+    /// The coordinate with this word.
+    pub fn named(word: &str) -> Result<Self> {
+        match word {
+            "roughness" => Ok(Across::Linear),
+            "sqrt" => Ok(Across::Sqrt),
+            _ => parameter(word, "power=", "roughness, sqrt or power=P").map(Across::Power),
+        }
+    }
+}
+
+/// The number above 0 behind a mark.
+fn parameter(word: &str, mark: &str, expected: &str) -> Result<f64> {
+    let number = word.strip_prefix(mark).and_then(|number| number.parse::<f64>().ok());
+    number.filter(|number| *number > 0.0 && *number <= 1e3).ok_or_else(|| {
+        Error::bad_input("coordinate", expected, format!("'{word}'"), "name one of these")
+    })
+}
