@@ -3,6 +3,8 @@
 //! approximation is judged by what a lookup gives anywhere in its region.
 
 pub mod channels;
+pub mod code;
+mod cost;
 pub mod numbers;
 pub mod place;
 pub mod shape;

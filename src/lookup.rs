@@ -7,7 +7,7 @@ pub mod fields;
 mod host;
 pub mod place;
 mod shader;
-mod syntax;
+pub(crate) mod syntax;
 
 pub use extras::Extra;
 

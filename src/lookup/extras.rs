@@ -2,8 +2,7 @@
 //! factor of a diffuse base.
 
 use super::fields::Field;
-use super::shader::syntax;
-use super::{Language, Lookup};
+use super::{Language, Lookup, syntax};
 use crate::choice::{Choice, choice};
 use crate::error::{Error, Result};
 
@@ -98,33 +97,19 @@ fn function(
     lines: &[(&str, &str)],
 ) -> String {
     let (name, numbers) = (format!("{}_{name}", lookup.prefix), lookup.numbers());
-    let (float, mark) = match language {
-        Language::Rust => ("f32", "///"),
-        Language::C => ("float", "//"),
-        language => (syntax(language).float, "//"),
-    };
+    let syntax = syntax::of(language);
+    let mark = if language == Language::Rust { "///" } else { "//" };
     let parameter = |&(name, is_numbers): &(&str, bool)| {
-        let kind = if is_numbers { &*numbers } else { float };
-        match language {
-            Language::Rust => format!("{name}: {kind}"),
-            Language::C => format!("{kind} {name}"),
-            language => (syntax(language).parameter)(name, kind),
-        }
+        (syntax.parameter)(name, if is_numbers { &numbers } else { syntax.float })
     };
     let parameters = parameters.iter().map(parameter).collect::<Vec<_>>().join(", ");
-    let head = match language {
-        Language::Rust => format!("pub fn {name}({parameters}) -> {float} {{"),
-        Language::C => format!("static inline {float} {name}({parameters}) {{"),
-        language => (syntax(language).function)(float, &name, &parameters),
-    };
+    let head = (syntax.function)(syntax.float, &name, &parameters);
     let line = |&(name, value): &(&str, &str)| {
         let with_suffix = matches!(language, Language::C | Language::Msl);
         let value = if with_suffix { in_c(value) } else { value.to_owned() };
-        match (name, language) {
-            ("", _) => format!("    return {value};\n"),
-            (name, Language::Rust) => format!("    let {name} = {value};\n"),
-            (name, Language::C) => format!("    {float} {name} = {value};\n"),
-            (name, language) => format!("    {}\n", (syntax(language).local)(float, name, &value)),
+        match name {
+            "" => format!("    return {value};\n"),
+            name => format!("    {}\n", (syntax.local)(syntax.float, name, &value)),
         }
     };
     let lines: String = lines.iter().map(line).collect();

@@ -2,7 +2,7 @@
 //! is its texture coordinate.
 
 use super::fields::Field;
-use super::{Lookup, Store, place};
+use super::{Lookup, Store, place, syntax};
 use crate::table::axis::Words;
 use crate::table::precision::Precision;
 use std::fmt::Write;
@@ -23,12 +23,7 @@ struct Host {
 }
 
 const C: Host = Host {
-    words: Words {
-        sqrt: |x| format!("sqrtf({x})"),
-        log2: |x| format!("log2f({x})"),
-        max: |x, y| format!("fmaxf({x}, {y})"),
-        number: |x| format!("{x:?}f"),
-    },
+    words: syntax::C.words,
     types: ["uint8_t", "uint16_t", "uint32_t", "float"],
     power: |x, y| format!("powf({x}, {y})"),
     min: |x, y| format!("fminf({x}, {y})"),
@@ -37,12 +32,7 @@ const C: Host = Host {
 };
 
 const RUST: Host = Host {
-    words: Words {
-        sqrt: |x| format!("f32::sqrt({x})"),
-        log2: |x| format!("f32::log2({x})"),
-        max: |x, y| format!("f32::max({x}, {y})"),
-        number: |x| format!("{x:?}"),
-    },
+    words: syntax::RUST.words,
     types: ["u8", "u16", "u32", "f32"],
     power: |x, y| format!("f32::powf({x}, {y})"),
     min: |x, y| format!("f32::min({x}, {y})"),

@@ -1,20 +1,10 @@
 //! Lookup code in shading languages: one text, in the words of each.
 
 use super::fields::Field;
-use super::syntax::{GLSL, HLSL, MSL, Shape, Syntax, WGSL};
+use super::syntax::{self, Shape, Syntax, WGSL};
 use super::{Language, Lookup, Store, place};
 use crate::table::precision::Precision;
 use crate::table::slices::SlicesAs;
-
-/// The words of a shading language.
-pub fn syntax(language: Language) -> &'static Syntax {
-    match language {
-        Language::Wgsl => &WGSL,
-        Language::Hlsl => &HLSL,
-        Language::Msl => &MSL,
-        Language::Glsl | Language::C | Language::Rust => &GLSL,
-    }
-}
 
 /// Writes the functions of a table in a language.
 struct Shader<'a> {
@@ -32,7 +22,7 @@ pub fn code(lookup: &Lookup, fields: &[Field], language: Language, store: Store)
         (Some(_), SlicesAs::Layers) => Shape::Layers,
         (Some(_), SlicesAs::Depth) => Shape::Volume,
     };
-    let shader = Shader { lookup, fields, syntax: syntax(language), store, shape };
+    let shader = Shader { lookup, fields, syntax: syntax::of(language), store, shape };
     let mut parts = vec![lookup.heading(), shader.numbers(), shader.unpack(), shader.place()];
     parts.push(shader.texel());
     if store == Store::Passed && lookup.filters() {

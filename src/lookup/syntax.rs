@@ -1,5 +1,6 @@
-//! The four shading languages in words: what differs between them, and nothing else.
+//! The languages in words: what differs between them, and nothing else. C and Rust have no textures.
 
+use super::Language;
 use crate::table::axis::{SHADING, Words};
 
 /// The shape of a texture.
@@ -13,7 +14,19 @@ pub enum Shape {
     Volume,
 }
 
-/// A shading language.
+/// The words of a language.
+pub fn of(language: Language) -> &'static Syntax {
+    match language {
+        Language::Wgsl => &WGSL,
+        Language::Glsl => &GLSL,
+        Language::Hlsl => &HLSL,
+        Language::Msl => &MSL,
+        Language::C => &C,
+        Language::Rust => &RUST,
+    }
+}
+
+/// A language.
 pub struct Syntax {
     /// The words of arithmetic.
     pub words: Words,
@@ -168,4 +181,30 @@ pub const WGSL: Syntax = Syntax {
         }
     },
     float_of_bits: "bitcast<f32>",
+};
+
+pub const C: Syntax = Syntax {
+    function: MSL.function,
+    words: Words {
+        sqrt: |x| format!("sqrtf({x})"),
+        log2: |x| format!("log2f({x})"),
+        max: |x, y| format!("fmaxf({x}, {y})"),
+        number: |x| format!("{x:?}f"),
+    },
+    ..C_LIKE
+};
+
+pub const RUST: Syntax = Syntax {
+    words: Words {
+        sqrt: |x| format!("f32::sqrt({x})"),
+        log2: |x| format!("f32::log2({x})"),
+        max: |x, y| format!("f32::max({x}, {y})"),
+        number: |x| format!("{x:?}"),
+    },
+    float: "f32",
+    int: "i32",
+    parameter: |name, kind| format!("{name}: {kind}"),
+    function: |kind, name, parameters| format!("pub fn {name}({parameters}) -> {kind} {{"),
+    local: |_, name, value| format!("let {name} = {value};"),
+    ..C_LIKE
 };

@@ -4,12 +4,14 @@
 //
 // The manifest lists cases; its paths are relative to it:
 //   name      a name for the report
-//   table     a KTX2 file that splitsum wrote
+//   table     a KTX2 file that splitsum wrote, if not values
 //   glsl      generated GLSL ES 3.00 functions
 //   wgsl      generated WGSL functions
 //   fields    the members of the struct `SplitSum`, at most four
 //   functions the functions to run, if not both
 //   third     null, or the name of the third parameter of a table with layers
+//   values    instead of a table, its functions and its third parameter: in each language an
+//             expression of the vec4 `point`, whose first components are the fields
 //   points    f32, little endian: n.v, roughness, third, 0 for each point
 //   expected  f32, little endian: the fields in order, then zeros, four for each point
 
@@ -23,7 +25,7 @@ const FILES = ['table', 'glsl', 'wgsl', 'points', 'expected'];
 function jobsOf(cases, base, folders) {
   return cases.map((one, number) => {
     const job = { ...one };
-    for (const file of FILES) {
+    for (const file of FILES.filter((file) => file in one)) {
       job[file] = `/case/${number}/${file}`;
       folders[job[file]] = resolve(base, one[file]);
     }

@@ -15,12 +15,17 @@ export async function devices() {
 
 /** Evaluates both functions in both languages. Returns one entry for each of the four. */
 export async function evaluate(job) {
-  const table = readKtx2(await bytes(job.table));
   const points = new Float32Array(await bytes(job.points));
   const expected = new Float32Array(await bytes(job.expected));
   if (points.length === 0 || points.length % 4 !== 0 || points.length !== expected.length) {
     throw new Error(`${job.name}: points and expected values must be as many, four floats each`);
   }
+  return job.values === undefined ? ofTable(job, points, expected) : ofValues(job, points, expected);
+}
+
+/** The same of a table. */
+async function ofTable(job, points, expected) {
+  const table = readKtx2(await bytes(job.table));
   if ((table.layers > 0) !== (job.third !== null)) {
     throw new Error(`${job.name}: a third parameter and layers belong together`);
   }
@@ -32,6 +37,18 @@ export async function evaluate(job) {
       const label = { case: job.name, language, function: name };
       results.push({ ...label, ...compare(found, expected, points, job) });
     }
+  }
+  return results;
+}
+
+/** The same of the expressions of a job without a table: one entry for each language. */
+async function ofValues(job, points, expected) {
+  const results = [];
+  for (const [language, api] of [['glsl', webgl], ['wgsl', webgpu]]) {
+    const source = new TextDecoder().decode(await bytes(job[language]));
+    const found = await api.evaluate({ points, source, value: job.values[language] });
+    const label = { case: job.name, language };
+    results.push({ ...label, ...compare(found, expected, points, { ...job, third: null }) });
   }
   return results;
 }

@@ -32,9 +32,23 @@ export function device() {
 
 /** Evaluates `splitsum_<name>` at all points. Returns four floats for each. */
 export function lookup({ table, points, source, name, fields }) {
+  return draw(points, fragment(table.layers > 0, source, name, fields), (program) => {
+    const loaded = upload(table);
+    gl.uniform1i(gl.getUniformLocation(program, 'bound_table'), 1);
+    return [loaded];
+  });
+}
+
+/** Evaluates an expression of `point` at all points, below code without a texture. */
+export function evaluate({ points, source, value }) {
+  return draw(points, around('', source, `  result = ${value};`), () => []);
+}
+
+/** Draws a pixel for each point. `bind(program)` returns further textures. */
+function draw(points, shader, bind) {
   context();
   const height = Math.ceil(points.length / 4 / WIDTH);
-  const program = link(fragment(table.layers > 0, source, name, fields));
+  const program = link(shader);
   gl.useProgram(program);
 
   // Holds the points, filled up with zeros to whole rows.
@@ -44,8 +58,7 @@ export function lookup({ table, points, source, name, fields }) {
   gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, WIDTH, height, 0, gl.RGBA, gl.FLOAT, padded);
   gl.uniform1i(gl.getUniformLocation(program, 'points'), 0);
 
-  const loaded = upload(table);
-  gl.uniform1i(gl.getUniformLocation(program, 'bound_table'), 1);
+  const bound = bind(program);
 
   const target = texture(gl.TEXTURE2, gl.TEXTURE_2D, gl.NEAREST);
   gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA32F, WIDTH, height);
@@ -58,25 +71,32 @@ export function lookup({ table, points, source, name, fields }) {
 
   const errors = glErrors(gl);
   if (errors.length > 0) throw new Error(`WebGL2: ${errors.join(', ')}`);
-  for (const one of [place, loaded, target]) gl.deleteTexture(one);
+  for (const one of [place, ...bound, target]) gl.deleteTexture(one);
   gl.deleteFramebuffer(frame);
   gl.deleteProgram(program);
   return padded.subarray(0, points.length);
 }
 
-/** Writes the shader around the generated code. Sets no precision that the code must set. */
+/** Writes the shader of a table's lookup. */
 function fragment(layered, source, name, fields) {
   const values = [0, 1, 2, 3].map((i) => (i < fields.length ? `found.${fields[i]}` : '0.0'));
+  const uniform = `uniform highp ${layered ? 'sampler2DArray' : 'sampler2D'} bound_table;`;
+  return around(uniform, source, `\
+  SplitSum found = splitsum_${name}(bound_table, point.x, point.y${layered ? ', point.z' : ''});
+  result = vec4(${values.join(', ')});`);
+}
+
+/** Writes the shader around the generated code. Sets no precision that the code must set. */
+function around(uniform, source, lines) {
   return `#version 300 es
 precision highp float;
 uniform highp sampler2D points;
-uniform highp ${layered ? 'sampler2DArray' : 'sampler2D'} bound_table;
+${uniform}
 out vec4 result;
 ${source}
 void main() {
   vec4 point = texelFetch(points, ivec2(gl_FragCoord.xy), 0);
-  SplitSum found = splitsum_${name}(bound_table, point.x, point.y${layered ? ', point.z' : ''});
-  result = vec4(${values.join(', ')});
+${lines}
 }`;
 }
 

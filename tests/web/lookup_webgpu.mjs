@@ -26,7 +26,23 @@ export async function device() {
 /** Evaluates `splitsum_<name>` at all points. Returns four floats for each. */
 export async function lookup({ table, points, source, name, fields }) {
   const { gpu } = await open();
-  const module = gpu.createShaderModule({ code: shader(table.layers > 0, source, name, fields) });
+  const loaded = upload(gpu, table);
+  const entries = [{ binding: 2, resource: loaded.createView(view(table.layers > 0)) }];
+  if (name === 'filtered') entries.push({ binding: 3, resource: linear(gpu) });
+  const found = await compute(points, shader(table.layers > 0, source, name, fields), entries);
+  loaded.destroy();
+  return found;
+}
+
+/** Evaluates an expression of `point` at all points, below code without a texture. */
+export function evaluate({ points, source, value }) {
+  return compute(points, around('', source, `  results[id.x] = ${value};`), []);
+}
+
+/** Runs an invocation for each point, with further bindings. */
+async function compute(points, code, bindings) {
+  const { gpu } = await open();
+  const module = gpu.createShaderModule({ code });
   const { messages } = await module.getCompilationInfo();
   const errors = messages.filter(({ type }) => type === 'error');
   if (errors.length > 0) {
@@ -34,7 +50,6 @@ export async function lookup({ table, points, source, name, fields }) {
   }
   const pipeline = await gpu.createComputePipelineAsync({ layout: 'auto', compute: { module } });
 
-  const loaded = upload(gpu, table);
   const places = buffer(gpu, points.byteLength, 'STORAGE', 'COPY_DST');
   const results = buffer(gpu, points.byteLength, 'STORAGE', 'COPY_SRC');
   const read = buffer(gpu, points.byteLength, 'MAP_READ', 'COPY_DST');
@@ -42,9 +57,8 @@ export async function lookup({ table, points, source, name, fields }) {
   const entries = [
     { binding: 0, resource: { buffer: places } },
     { binding: 1, resource: { buffer: results } },
-    { binding: 2, resource: loaded.createView(view(table.layers > 0)) },
+    ...bindings,
   ];
-  if (name === 'filtered') entries.push({ binding: 3, resource: linear(gpu) });
 
   const encoder = gpu.createCommandEncoder();
   const pass = encoder.beginComputePass();
@@ -56,25 +70,33 @@ export async function lookup({ table, points, source, name, fields }) {
   gpu.queue.submit([encoder.finish()]);
   await read.mapAsync(GPUMapMode.READ);
   const found = new Float32Array(read.getMappedRange().slice(0));
-  for (const one of [loaded, places, results, read]) one.destroy();
+  for (const one of [places, results, read]) one.destroy();
   return found;
 }
 
-/** Writes the shader around the generated code. The exact function gets no sampler. */
+/** Writes the shader of a table's lookup. The exact function gets no sampler. */
 function shader(layered, source, name, fields) {
   const values = [0, 1, 2, 3].map((i) => (i < fields.length ? `found.${fields[i]}` : '0.0'));
   const inputs = name === 'filtered' ? 'bound_table, bound_sampler' : 'bound_table';
+  const bindings = `\
+@group(0) @binding(2) var bound_table: ${layered ? 'texture_2d_array' : 'texture_2d'}<f32>;
+@group(0) @binding(3) var bound_sampler: sampler;`;
+  return around(bindings, source, `\
+  let found = splitsum_${name}(${inputs}, point.x, point.y${layered ? ', point.z' : ''});
+  results[id.x] = vec4f(${values.join(', ')});`);
+}
+
+/** Writes the shader around the generated code. */
+function around(bindings, source, lines) {
   return `${source}
 @group(0) @binding(0) var<storage, read> points: array<vec4f>;
 @group(0) @binding(1) var<storage, read_write> results: array<vec4f>;
-@group(0) @binding(2) var bound_table: ${layered ? 'texture_2d_array' : 'texture_2d'}<f32>;
-@group(0) @binding(3) var bound_sampler: sampler;
+${bindings}
 @compute @workgroup_size(${GROUP})
 fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= arrayLength(&points)) { return; }
   let point = points[id.x];
-  let found = splitsum_${name}(${inputs}, point.x, point.y${layered ? ', point.z' : ''});
-  results[id.x] = vec4f(${values.join(', ')});
+${lines}
 }`;
 }
 

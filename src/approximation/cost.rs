@@ -1,0 +1,101 @@
+//! What a lookup costs, by a model: operations on floats and reads of numbers, counted from the
+//! code that [`super::code`] writes. A device runs some of them at once, and others twice.
+
+use super::place::{Across, Along};
+use super::{Approximation, Channels, Shape};
+
+/// A division or a root, where a sum, a product, a comparison or a conversion is 1.
+const ROOT: usize = 4;
+
+/// A power or a cube root.
+const POWER: usize = 12;
+
+/// A value kept between two numbers.
+const CLAMP: usize = 2;
+
+/// (1 - n·v)⁵
+const GRAZING: usize = 4;
+
+/// A product and a sum.
+const STEP: usize = 2;
+
+impl Approximation {
+    /// Operations on floats of a lookup of the channels and of E(F0): a sum, a product, a minimum,
+    /// a maximum or a conversion is 1, a division or a root 4, a power 12. The
+    /// numbers of polynomials count as constants, whose codes a compiler decodes. A model, no
+    /// measurement.
+    pub fn operations(&self) -> usize {
+        let channels = self.channels.count();
+        let count = |channel: usize| self.numbers.get(channel).map_or(0, |numbers| numbers.len());
+        let steps: usize = (0..channels).map(|c| STEP * count(c).saturating_sub(1)).sum();
+        let sums = match self.shape {
+            Shape::Polynomial { x } => CLAMP + along(x, true) + steps,
+            Shape::Surface { x, y, .. } => 2 * CLAMP + along(x, false) + power(y) + steps,
+            Shape::Spline { x, y, size, degree } => {
+                let least = if self.region.least_nov > 0.0 { 2 } else { 0 };
+                let smoothest = y.of::<f64>(self.region.roughness[0]);
+                // The shift to the region's end, and the scale.
+                let across = power(y) + if smoothest == 0.0 { 1 } else { 3 };
+                let places = 2 * CLAMP + least + along(x, false) + 1 + across;
+                let axes: usize = size.map(|count| span(degree, count)).iter().sum();
+                // Products and sums of each row, and of the rows.
+                let taps = (degree + 2) * (2 * degree + 1);
+                let coded = |c: usize| {
+                    let stored = self.numbers.get(c).and_then(|numbers| numbers.storage().last());
+                    stored.map_or(0, |_| self.loads() + STEP)
+                };
+                places + axes + (0..channels).map(|c| taps + coded(c)).sum::<usize>()
+            }
+        };
+        let albedo = match self.channels {
+            Channels::Albedo => 0,
+            Channels::ScaleBias => STEP,
+            Channels::BiasEnergy => 1 + 1 + STEP,
+            // F has a complement, a product and a sum.
+            Channels::Ratio => CLAMP + GRAZING + 3 + 1,
+            Channels::EnergyRest => CLAMP + GRAZING + 3 + 1 + STEP,
+        };
+        sums + albedo
+    }
+
+    /// Numbers that a lookup reads where the place says, all channels of one counted once: none
+    /// where all of them count at every place.
+    pub fn loads(&self) -> usize {
+        match self.shape {
+            Shape::Polynomial { .. } | Shape::Surface { .. } => 0,
+            Shape::Spline { degree, .. } => (degree + 1) * (degree + 1),
+        }
+    }
+}
+
+/// The coordinate along n·v; where the roughness is constant, so is what follows from it.
+fn along(x: Along, constant: bool) -> usize {
+    match x {
+        Along::Nov => 0,
+        Along::Sqrt => ROOT,
+        Along::Cbrt => POWER,
+        Along::Layer(_) if constant => 2 + 2 * ROOT,
+        Along::Layer(_) => 2 + 2 + 2 + 2 * ROOT,
+    }
+}
+
+/// The power of the roughness.
+fn power(y: Across) -> usize {
+    match y {
+        Across::Linear => 0,
+        Across::Sqrt => ROOT,
+        Across::Power(_) => POWER,
+    }
+}
+
+/// The span of a place, and the weights of its control points.
+fn span(degree: usize, count: usize) -> usize {
+    // A conversion to a whole number and back, a minimum, a difference.
+    let fraction = if count - degree > 1 { 4 } else { 0 };
+    let weights = match degree {
+        1 => 1,
+        2 => 1 + 2 + 2 + 2,
+        _ => 1 + 3 + 3 + 5 + 3,
+    };
+    fraction + weights
+}
