@@ -1,7 +1,7 @@
 //! Lookup code in shading languages: one text, in the words of each.
 
 use super::fields::Field;
-use super::syntax::{self, Shape, Syntax, WGSL};
+use super::syntax::{self, Shape, Syntax};
 use super::{Language, Lookup, Store, place};
 use crate::table::precision::Precision;
 use crate::table::slices::SlicesAs;
@@ -81,8 +81,7 @@ impl Shader<'_> {
             format!("    {member} // {}\n", field.meaning)
         };
         let members: String = self.fields.iter().map(member).collect();
-        let end = if std::ptr::eq(syntax, &WGSL) { "}" } else { "};" };
-        format!("struct {} {{\n{members}{end}", self.lookup.numbers())
+        format!("struct {} {{\n{members}{}", self.lookup.numbers(), syntax.struct_end)
     }
 
     fn unpack(&self) -> String {

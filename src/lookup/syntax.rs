@@ -52,6 +52,8 @@ pub struct Syntax {
     pub variable: fn(&str, &str) -> String,
     /// A member of a struct: its type, its name.
     pub member: fn(&str, &str) -> String,
+    /// What ends a struct.
+    pub struct_end: &'static str,
     /// A texel of the texture `table` at column, row and slice.
     pub fetch: fn(Shape, &str, &str, &str) -> String,
     /// The texture `table` through its sampler at `uv`, in a slice.
@@ -76,6 +78,7 @@ const C_LIKE: Syntax = Syntax {
     local: |kind, name, value| format!("{kind} {name} = {value};"),
     variable: |kind, name| format!("{kind} {name};"),
     member: |kind, name| format!("{kind} {name};"),
+    struct_end: "};",
     fetch: |_, _, _, _| String::new(),
     sample: |_, _, _| String::new(),
     float_of_bits: "asfloat",
@@ -168,6 +171,7 @@ pub const WGSL: Syntax = Syntax {
     local: |_, name, value| format!("let {name} = {value};"),
     variable: |kind, name| format!("var {name}: {kind};"),
     member: |kind, name| format!("{name}: {kind},"),
+    struct_end: "}",
     fetch: |shape, i, j, k| match shape {
         Shape::Plane => format!("textureLoad(table, vec2<i32>({i}, {j}), 0)"),
         Shape::Layers => format!("textureLoad(table, vec2<i32>({i}, {j}), {k}, 0)"),

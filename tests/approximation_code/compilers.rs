@@ -45,7 +45,8 @@ pub fn glslang() -> Result<(), Failed> {
     let (text, sum) = all(Language::Glsl)?;
     for version in ["300 es", "330"] {
         let main = format!(
-            "#version {version}\nprecision highp float;\nuniform vec4 p;\nout vec4 colour;\n{text}\n\
+            "#version {version}\nprecision highp float;\nuniform vec4 p;\nout vec4 colour;\n\
+             {text}\n\
              void main() {{ colour = vec4({sum}); }}\n"
         );
         fs::write(folder.path().join("code.frag"), main)?;

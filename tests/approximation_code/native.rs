@@ -58,7 +58,8 @@ fn c_program(cases: &[Case], language: Language, head: &str) -> Result<String, F
         let scale_bias = match (case.has_scale_bias(), language) {
             (false, _) => String::new(),
             (_, Language::C) => format!(
-                "    {name}_float2 ab = {name}_scale_bias({place});\n    put(ab.x);\n    put(ab.y);\n"
+                "    {name}_float2 ab = {name}_scale_bias({place});\n    put(ab.x);\n    \
+                 put(ab.y);\n"
             ),
             _ => format!(
                 "    float2 ab = {name}_scale_bias({place});\n    put(ab.x);\n    put(ab.y);\n"

@@ -54,7 +54,8 @@ impl Function<'_> {
     }
 }
 
-/// Σ term x^i by Horner's rule, in a variable: the lines before, and the last step as an expression.
+/// Σ term x^i by Horner's rule, in a variable: the lines before, and the last step as an
+/// expression.
 pub fn horner(variable: String, name: &str, terms: &[String], x: &str) -> (Vec<String>, String) {
     let [first, middle @ .., _] = terms else {
         return (Vec::new(), terms.concat());

@@ -70,7 +70,8 @@ impl Functions<'_> {
         if self.dialect.language == Language::Rust { name.to_uppercase() } else { name }
     }
 
-    /// Members of the array in lines of a hundred columns; a row begins a line where it ends a word.
+    /// Members of the array in lines of a hundred columns; a row begins a line where it ends
+    /// a word.
     fn rows(&self, members: &[String]) -> String {
         let columns = match self.approximation.shape {
             Shape::Polynomial { .. } => self.packing.count,

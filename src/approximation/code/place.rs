@@ -5,8 +5,8 @@ use super::dialect::Dialect;
 use crate::approximation::place::TINY;
 use crate::approximation::{Across, Along, Region};
 
-/// The lines of n, which is n·v counted from `least`, and of what else the coordinate needs; and the
-/// coordinate as an expression. `roughness` is there where it is a constant.
+/// The lines of n, which is n·v counted from `least`, and of what else the coordinate needs; and
+/// the coordinate as an expression. `roughness` is there where it is a constant.
 pub fn along(
     dialect: &Dialect,
     x: Along,
