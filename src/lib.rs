@@ -47,6 +47,7 @@
 //! - `format`: a table as the bytes of a file
 //! - `approximation`: shapes with few numbers that follow the integrals over a region
 //! - `preset`: the tables that engines expect, as flags
+//! - `scene`: the roughnesses and reflectances of the materials of a scene file
 //! - `furnace`: the energy that a material gives back in a white furnace
 //! - `preview`: spheres lit with tables and with integrals
 //! - `compare`: methods compared: estimators, fits, textbook formulas; studies and charts
@@ -94,6 +95,9 @@ pub mod approximation;
 #[doc(hidden)]
 #[cfg(feature = "cli")]
 pub mod preset;
+#[doc(hidden)]
+#[cfg(feature = "cli")]
+pub mod scene;
 #[doc(hidden)]
 #[cfg(feature = "cli")]
 pub mod furnace;

@@ -48,6 +48,6 @@ fn values() -> &'static [f64; 256] {
 }
 
 /// The curve itself.
-fn linear(encoded: f64) -> f64 {
+pub fn linear(encoded: f64) -> f64 {
     if encoded <= 0.04045 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
 }
