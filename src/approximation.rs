@@ -1,13 +1,14 @@
-//! Approximations of the integrals E(F0) of a lobe over a region of (n·v, roughness, F0): shapes with
-//! few numbers, evaluated as a shader does. A table of integrals is right at its nodes; an
+//! Approximations of the integrals E(F0) of a lobe over a region of (n·v, roughness, F0): shapes
+//! with few numbers, evaluated as a shader does. A table of integrals is right at its nodes; an
 //! approximation is judged by what a lookup gives anywhere in its region.
 
 pub mod channels;
 pub mod code;
-mod cost;
+pub mod cost;
 pub mod numbers;
 pub mod place;
 pub mod shape;
+pub mod table;
 
 pub use channels::Channels;
 pub use numbers::{Numbers, Storage};
@@ -24,6 +25,17 @@ pub struct Region {
     pub least_nov: f64,
     /// Perceptual roughness lies between these; they are equal for a constant.
     pub roughness: [f64; 2],
+}
+
+impl Region {
+    /// The region of a roughness, or of a range of them, where n·v from `least_nov` on is looked
+    /// up. A range that begins at a smaller α than that has its layer at n·v ~ α partly below it,
+    /// at another place for each roughness: it takes every n·v instead.
+    pub fn new(least_nov: f64, roughness: [f64; 2]) -> Self {
+        let [low, high] = roughness;
+        let is_cut = low < high && low * low < least_nov;
+        Region { least_nov: if is_cut { 0.0 } else { least_nov }, roughness }
+    }
 }
 
 /// An approximation: its shape and its numbers.
@@ -56,6 +68,28 @@ impl Approximation {
         let weights = self.channels.weights(nov, f0);
         let channels = self.at(nov, roughness);
         weights[0] * channels[0] + weights[1] * channels[1]
+    }
+
+    /// BLAKE3 of its numbers: of each channel the offset, the scale and the codes, or the floats,
+    /// little-endian.
+    pub fn blake3(&self) -> String {
+        let mut hasher = blake3::Hasher::new();
+        for numbers in &self.numbers {
+            match numbers {
+                Numbers::Floats(floats) | Numbers::Halves(floats) => {
+                    for float in floats {
+                        hasher.update(&float.to_le_bytes());
+                    }
+                }
+                Numbers::Codes { offset, scale, codes, .. } => {
+                    hasher.update(&offset.to_le_bytes()).update(&scale.to_le_bytes());
+                    for code in codes {
+                        hasher.update(&code.to_le_bytes());
+                    }
+                }
+            }
+        }
+        hasher.finalize().to_string()
     }
 
     /// Bytes of its numbers.

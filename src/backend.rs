@@ -38,9 +38,9 @@ choice!(BackendChoice, "backend", {
     Cpu = "cpu", "the CPU";
 });
 
-/// Seconds that it takes to start Vulkan and to end it: loader, driver, device and the compilation of
-/// a kernel. A process that bakes 64 x 64 texels takes 0.22 s on an NVIDIA H100 (driver 580.159.04)
-/// and 0.014 s on that machine's CPU; software drivers start in 0.03 s.
+/// Seconds that it takes to start Vulkan and to end it: loader, driver, device and the compilation
+/// of a kernel. A process that bakes 64 x 64 texels takes 0.22 s on an NVIDIA H100 (driver
+/// 580.159.04) and 0.014 s on that machine's CPU; software drivers start in 0.03 s.
 pub const VULKAN_START: f64 = 0.2;
 
 /// A backend: the CPU, or a device that is opened when a job is large enough for it.

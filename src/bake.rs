@@ -140,7 +140,7 @@ impl Slice<'_> {
                     certificate.blake3.clone_from(&hash);
                     certificate.bound += coarser;
                 }
-                Claim::Uncertified { .. } | Claim::Estimated { .. } => (),
+                Claim::Uncertified { .. } | Claim::Estimated { .. } | Claim::Fitted { .. } => (),
             }
             if let Some(checks) = &mut outcome.checks {
                 checks.rounding += coarser;

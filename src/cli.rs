@@ -15,6 +15,7 @@ mod lookup;
 mod message;
 mod output;
 mod place;
+mod plan;
 mod presets;
 mod preview;
 mod progress;
@@ -47,6 +48,8 @@ enum Command {
     #[cfg(feature = "compare")]
     #[command(subcommand)]
     Chart(Box<chart::ChartArgs>),
+    /// Find the smallest approximation that a scene needs, and prove that less does not do
+    Plan(Box<plan::PlanArgs>),
     /// Report how much energy a material gives back in a white furnace
     Furnace(furnace::FurnaceArgs),
     /// Render spheres lit by a light, a furnace or a sky
@@ -85,6 +88,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Bake(arguments) => bake::run(*arguments),
         #[cfg(feature = "compare")]
         Command::Chart(arguments) => chart::run(&arguments),
+        Command::Plan(arguments) => plan::run(&arguments),
         Command::Furnace(arguments) => furnace::run(&arguments),
         Command::Preview(arguments) => preview::run(&arguments),
         Command::Presets(arguments) => presets::run(&arguments),

@@ -48,6 +48,7 @@
 //! - `approximation`: shapes with few numbers that follow the integrals over a region
 //! - `preset`: the tables that engines expect, as flags
 //! - `scene`: the roughnesses and reflectances of the materials of a scene file
+//! - `planner`: the cheapest approximation for a scene, and proofs that cheaper ones fail
 //! - `furnace`: the energy that a material gives back in a white furnace
 //! - `preview`: spheres lit with tables and with integrals
 //! - `compare`: methods compared: estimators, fits, textbook formulas; studies and charts
@@ -98,6 +99,9 @@ pub mod preset;
 #[doc(hidden)]
 #[cfg(feature = "cli")]
 pub mod scene;
+#[doc(hidden)]
+#[cfg(feature = "cli")]
+pub mod planner;
 #[doc(hidden)]
 #[cfg(feature = "cli")]
 pub mod furnace;

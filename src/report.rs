@@ -115,6 +115,7 @@ impl Report {
                 }
                 writeln!(f, "blake3    {}", certificate.blake3)
             }
+            Claim::Fitted { filter, .. } => writeln!(f, "fitted    {filter}; not certified"),
             Claim::Estimated { estimator, .. } => {
                 writeln!(f, "estimator {estimator}; not certified")?;
                 self.checks.iter().try_for_each(|checks| write!(f, "{checks}"))

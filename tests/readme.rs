@@ -1,6 +1,7 @@
 //! The README's commands work as they stand there, in its order, in an empty folder.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use std::path::Path;
 use std::process::Command;
 
 /// The contents of the README's code blocks of a language.
@@ -24,17 +25,20 @@ fn the_commands_of_the_readme_and_of_its_pages_work() {
         .map(|line| line.split(" #").next().unwrap_or(line).trim_end());
     let mut count = 0;
     for command in commands.filter(|line| !line.is_empty()) {
+        let program = Path::new(env!("CARGO_BIN_EXE_splitsum"));
+        if let Some(example) = command.strip_prefix("cargo run --release --example ") {
+            // Examples are built with the tests.
+            let example = program.with_file_name("examples").join(example);
+            assert!(Command::new(example).current_dir(&folder).status().unwrap().success());
+            continue;
+        }
         let Some(arguments) = command.strip_prefix("cargo run --release -- ") else {
             assert!(command == "cargo test --release", "cannot try '{command}'");
             continue;
         };
         // A list of devices needs a device; everything else falls back to the CPU.
         let arguments: Vec<_> = arguments.split_whitespace().collect();
-        let output = Command::new(env!("CARGO_BIN_EXE_splitsum"))
-            .current_dir(&folder)
-            .args(&arguments)
-            .output()
-            .unwrap();
+        let output = Command::new(program).current_dir(&folder).args(&arguments).output().unwrap();
         let may_fail = arguments[0] == "devices" && output.status.code() == Some(5);
         assert!(
             output.status.success() || may_fail,
@@ -60,7 +64,7 @@ fn figures_in_the_readme_are_those_of_the_run() {
 
 #[test]
 fn charts_are_drawn_from_the_measurements_beside_them() {
-    let charts = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/charts");
+    let charts = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/charts");
     let folder = tempfile::tempdir().unwrap();
     for study in ["speed", "stability"] {
         let saved = charts.join(format!("{study}.json"));
@@ -71,7 +75,7 @@ fn charts_are_drawn_from_the_measurements_beside_them() {
     let mut count = 0;
     for entry in std::fs::read_dir(folder.path()).unwrap() {
         let name = entry.unwrap().file_name();
-        let read = |folder: &std::path::Path| std::fs::read(folder.join(&name)).unwrap();
+        let read = |folder: &Path| std::fs::read(folder.join(&name)).unwrap();
         // The edges of what is painted may differ by a shade where vector instructions do.
         let painted = name.to_string_lossy().ends_with(".png");
         let (drawn, kept) = (read(folder.path()), read(&charts));

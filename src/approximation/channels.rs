@@ -11,7 +11,8 @@ pub enum Channels {
     /// W of E(F0) = F W, for one F0: W changes less than the albedo.
     Ratio,
     /// E and R of E(F0) = F E + (1 - F0) R: E is the albedo at F0 = 1, and R what B has beyond
-    /// (1 - n·v)⁵ E. Both are smooth in a coordinate that follows the lobe's layer at grazing angles.
+    /// (1 - n·v)⁵ E. Both are smooth in a coordinate that follows the lobe's layer at grazing
+    /// angles.
     EnergyRest,
     /// A and B of E(F0) = F0 A + B (Karis 2013).
     ScaleBias,

@@ -11,7 +11,7 @@ mod place;
 mod results;
 mod sums;
 
-use super::{Approximation, Channels, Numbers, Region, Shape};
+use super::{Approximation, Numbers, Region, Shape};
 use crate::error::{Error, Result};
 use crate::lookup::{Language, check_name};
 use dialect::Dialect;
@@ -28,7 +28,7 @@ use results::{ALBEDO, SCALE_BIAS, has_fresnel};
 /// material where there are several, and F0 where the channels leave it free.
 #[derive(Clone, Debug)]
 pub struct Code<'a> {
-    /// What it looks up; several are polynomials, with the same arguments.
+    /// What it looks up; several are polynomials.
     pub approximations: &'a [Approximation],
     /// What begins all names.
     pub prefix: &'a str,
@@ -49,7 +49,7 @@ impl Code<'_> {
     /// # Errors
     ///
     /// [`Error::BadInput`] where the prefix is none, numbers do not fit their shape, or several
-    /// approximations are not all polynomials with the same arguments.
+    /// approximations are not all polynomials.
     pub fn write(&self, language: Language) -> Result<String> {
         check_name("prefix", self.prefix)?;
         if self.prefix.ends_with('_') {
@@ -69,7 +69,8 @@ impl Code<'_> {
             prefix: self.prefix,
             suffix: if several { format!("_{i}") } else { String::new() },
         };
-        let all: Vec<Functions> = self.approximations.iter().enumerate().map(functions).collect();
+        let padded: Vec<Approximation> = self.approximations.iter().map(padded).collect();
+        let all: Vec<Functions> = padded.iter().enumerate().map(functions).collect();
         let mut parts = vec![self.heading(language)];
         parts.extend(self.shared(dialect, &all));
         for functions in &all {
@@ -78,30 +79,24 @@ impl Code<'_> {
             parts.extend(functions.helpers());
             parts.extend(functions.results(!several));
         }
-        if several && all[0].packing.channels() > 1 {
-            parts.push(dispatch(&all, SCALE_BIAS, &all[0].pair(), false));
+        if several && all.iter().all(|one| one.packing.channels() > 1) {
+            parts.push(dispatch(&all, SCALE_BIAS, &all[0].pair(), &|_| false));
         }
         if several {
-            parts.push(dispatch(&all, ALBEDO, dialect.syntax.float, all[0].takes_f0()));
+            parts.push(dispatch(&all, ALBEDO, dialect.syntax.float, &|one| one.takes_f0()));
         }
         Ok(parts.join("\n\n") + "\n")
     }
 
     /// Refuses what has no code.
     fn check(&self) -> Result<()> {
-        let Some(first) = self.approximations.first() else {
+        if self.approximations.is_empty() {
             return Err(refused("approximations", "one or several", "none"));
-        };
+        }
         self.approximations.iter().try_for_each(check)?;
-        let like_first = |other: &Approximation| {
-            let arguments = |channels: Channels| (channels.count(), channels == Channels::Albedo);
-            arguments(other.channels) == arguments(first.channels)
-                && matches!(other.shape, Shape::Polynomial { .. })
-        };
-        if self.approximations.len() > 1 && !self.approximations.iter().all(like_first) {
-            let expected =
-                "polynomials of constant roughness, whose lookups take the same arguments";
-            return Err(refused("approximations", expected, "others"));
+        let is_line = |one: &Approximation| matches!(one.shape, Shape::Polynomial { .. });
+        if self.approximations.len() > 1 && !self.approximations.iter().all(is_line) {
+            return Err(refused("approximations", "polynomials of constant roughness", "others"));
         }
         Ok(())
     }
@@ -150,11 +145,18 @@ impl Code<'_> {
 }
 
 /// A function that calls that of a material, the last where there is none of that number.
-fn dispatch(all: &[Functions], (about, name): (&str, &str), kind: &str, takes_f0: bool) -> String {
+fn dispatch(
+    all: &[Functions],
+    (about, name): (&str, &str),
+    kind: &str,
+    takes_f0: &dyn Fn(&Functions) -> bool,
+) -> String {
     let dialect = all[0].dialect;
-    let f0 = if takes_f0 { ", f0" } else { "" };
     let (last, others) = (all.len() - 1, &all[..all.len() - 1]);
-    let call = |one: &Functions| format!("return {}(nov{f0});", one.name(name));
+    let call = |one: &Functions| {
+        let f0 = if takes_f0(one) { ", f0" } else { "" };
+        format!("return {}(nov{f0});", one.name(name))
+    };
     let condition = |i: usize| match dialect.language {
         Language::Rust => format!("material == {i}"),
         _ => format!("(material == {i})"),
@@ -164,11 +166,25 @@ fn dispatch(all: &[Functions], (about, name): (&str, &str), kind: &str, takes_f0
     lines.push(call(&all[last]));
     let float = dialect.syntax.float;
     let mut parameters = vec![("nov", float), ("material", dialect.syntax.int)];
-    parameters.extend(takes_f0.then_some(("f0", float)));
+    parameters.extend(all.iter().any(takes_f0).then_some(("f0", float)));
     let name = format!("{}_{name}", all[0].prefix);
     let about = format!("{about} The material is one from 0 to {last}.");
     Function { about: &about, public: true, kind, name: &name, parameters: &parameters, lines }
         .text(dialect)
+}
+
+/// A constant as a polynomial with a second number, 0, so that its function uses n·v.
+fn padded(approximation: &Approximation) -> Approximation {
+    let mut padded = approximation.clone();
+    if let Shape::Polynomial { .. } = padded.shape {
+        let longest = padded.numbers.iter().map(Numbers::len).max();
+        if let (Some(1), Some(Numbers::Floats(floats) | Numbers::Halves(floats))) =
+            (longest, padded.numbers.first_mut())
+        {
+            floats.resize(2, 0.0);
+        }
+    }
+    padded
 }
 
 /// A refusal.
@@ -187,7 +203,7 @@ fn check(approximation: &Approximation) -> Result<()> {
     let lengths = || numbers.iter().filter(|numbers| !numbers.is_empty()).map(Numbers::len);
     let longest = lengths().max().unwrap_or(0);
     let fits = match *shape {
-        Shape::Polynomial { .. } => low == high && longest > 1,
+        Shape::Polynomial { .. } => low == high,
         Shape::Surface { columns, .. } => {
             // A constant along a coordinate would not need it.
             let rows = longest.checked_div(columns).unwrap_or(0);
@@ -199,7 +215,9 @@ fn check(approximation: &Approximation) -> Result<()> {
         }
     };
     let finite = |numbers: &Numbers| match numbers {
-        Numbers::Floats(floats) => floats.iter().all(|float| float.is_finite()),
+        Numbers::Floats(floats) | Numbers::Halves(floats) => {
+            floats.iter().all(|float| float.is_finite())
+        }
         Numbers::Codes { offset, scale, .. } => offset.is_finite() && scale.is_finite(),
     };
     let any = numbers.len() == channels.count() && longest > 0;

@@ -2,7 +2,7 @@
 //! code that [`super::code`] writes. A device runs some of them at once, and others twice.
 
 use super::place::{Across, Along};
-use super::{Approximation, Channels, Shape};
+use super::{Channels, Region, Shape, Storage};
 
 /// A division or a root, where a sum, a product, a comparison or a conversion is 1.
 const ROOT: usize = 4;
@@ -19,15 +19,29 @@ const GRAZING: usize = 4;
 /// A product and a sum.
 const STEP: usize = 2;
 
-impl Approximation {
+/// What is looked up, but for the numbers themselves.
+#[derive(Clone, Copy, Debug)]
+pub struct Lookup<'a> {
+    /// Where.
+    pub region: &'a Region,
+    /// The channels.
+    pub channels: Channels,
+    /// The shape.
+    pub shape: Shape,
+    /// The numbers in each channel.
+    pub counts: [usize; 2],
+    /// Their storage.
+    pub storage: Storage,
+}
+
+impl Lookup<'_> {
     /// Operations on floats of a lookup of the channels and of E(F0): a sum, a product, a minimum,
-    /// a maximum or a conversion is 1, a division or a root 4, a power 12. The
-    /// numbers of polynomials count as constants, whose codes a compiler decodes. A model, no
-    /// measurement.
+    /// a maximum or a conversion is 1, a division or a root 4, a power 12. The numbers of
+    /// polynomials count as constants, whose codes a compiler decodes. A model, no measurement.
     pub fn operations(&self) -> usize {
         let channels = self.channels.count();
-        let count = |channel: usize| self.numbers.get(channel).map_or(0, |numbers| numbers.len());
-        let steps: usize = (0..channels).map(|c| STEP * count(c).saturating_sub(1)).sum();
+        let steps: usize =
+            self.counts.iter().take(channels).map(|count| STEP * count.saturating_sub(1)).sum();
         let sums = match self.shape {
             Shape::Polynomial { x } => CLAMP + along(x, true) + steps,
             Shape::Surface { x, y, .. } => 2 * CLAMP + along(x, false) + power(y) + steps,
@@ -40,11 +54,8 @@ impl Approximation {
                 let axes: usize = size.map(|count| span(degree, count)).iter().sum();
                 // Products and sums of each row, and of the rows.
                 let taps = (degree + 2) * (2 * degree + 1);
-                let coded = |c: usize| {
-                    let stored = self.numbers.get(c).and_then(|numbers| numbers.storage().last());
-                    stored.map_or(0, |_| self.loads() + STEP)
-                };
-                places + axes + (0..channels).map(|c| taps + coded(c)).sum::<usize>()
+                let coded = self.storage.last().map_or(0, |_| self.loads() + STEP);
+                places + axes + channels * (taps + coded)
             }
         };
         let albedo = match self.channels {

@@ -1,12 +1,15 @@
 //! The numbers of a channel as they are stored.
 
 use crate::choice::choice;
+use crate::numeric::half::nearest;
 
 /// A storage of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
     /// Floats of 32 bits: constants in code or uniforms.
     F32,
+    /// Halves.
+    F16,
     /// Codes of 16 bits with an offset and a scale for the channel.
     Unorm16,
     /// Codes of 8 bits with an offset and a scale for the channel.
@@ -15,6 +18,7 @@ pub enum Storage {
 
 choice!(Storage, "storage", {
     F32 = "f32", "floats";
+    F16 = "f16", "halves";
     Unorm16 = "unorm16", "16 bits with an offset and a scale";
     Unorm8 = "unorm8", "8 bits with an offset and a scale";
 });
@@ -24,6 +28,8 @@ choice!(Storage, "storage", {
 pub enum Numbers {
     /// Floats.
     Floats(Vec<f32>),
+    /// Floats, each of which is a half.
+    Halves(Vec<f32>),
     /// offset + scale · code, with codes from 0 to the `last`, 255 or 65535.
     Codes {
         /// The value of code 0.
@@ -41,7 +47,7 @@ impl Storage {
     /// The largest code; none of floats.
     pub fn last(self) -> Option<u16> {
         match self {
-            Storage::F32 => None,
+            Storage::F32 | Storage::F16 => None,
             Storage::Unorm16 => Some(u16::MAX),
             Storage::Unorm8 => Some(u16::from(u8::MAX)),
         }
@@ -51,13 +57,16 @@ impl Storage {
     pub fn bytes(self) -> usize {
         match self {
             Storage::F32 => 4,
-            Storage::Unorm16 => 2,
+            Storage::F16 | Storage::Unorm16 => 2,
             Storage::Unorm8 => 1,
         }
     }
 
     /// Rounds numbers to this storage: codes span the numbers' own range.
     pub fn store(self, numbers: &[f64]) -> Numbers {
+        if self == Storage::F16 {
+            return Numbers::Halves(numbers.iter().map(|&n| nearest(n) as f32).collect());
+        }
         let Some(last) = self.last() else {
             return Numbers::Floats(numbers.iter().map(|&number| number as f32).collect());
         };
@@ -80,6 +89,7 @@ impl Numbers {
     pub fn storage(&self) -> Storage {
         match self {
             Numbers::Floats(_) => Storage::F32,
+            Numbers::Halves(_) => Storage::F16,
             Numbers::Codes { last: u16::MAX, .. } => Storage::Unorm16,
             Numbers::Codes { .. } => Storage::Unorm8,
         }
@@ -88,7 +98,7 @@ impl Numbers {
     /// How many there are.
     pub fn len(&self) -> usize {
         match self {
-            Numbers::Floats(floats) => floats.len(),
+            Numbers::Floats(floats) | Numbers::Halves(floats) => floats.len(),
             Numbers::Codes { codes, .. } => codes.len(),
         }
     }
@@ -106,7 +116,7 @@ impl Numbers {
     /// A number as a shader decodes it.
     pub fn get(&self, index: usize) -> f64 {
         match self {
-            Numbers::Floats(floats) => floats[index].into(),
+            Numbers::Floats(floats) | Numbers::Halves(floats) => floats[index].into(),
             Numbers::Codes { offset, scale, codes, .. } => {
                 (offset + scale * f32::from(codes[index])).into()
             }

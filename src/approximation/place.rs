@@ -13,8 +13,8 @@ pub enum Along {
     Sqrt,
     /// ∛(n·v)
     Cbrt,
-    /// T = √(μ(1 + kα)/(μ + kα)) with μ = n·v. Near n·v = α = 0 the integrals are functions of n·v/α
-    /// alone: T resolves that layer, whatever α.
+    /// T = √(μ(1 + kα)/(μ + kα)) with μ = n·v. Near n·v = α = 0 the integrals are functions of
+    /// n·v/α alone: T resolves that layer, whatever α.
     Layer(f64),
 }
 
@@ -48,6 +48,21 @@ impl Along {
                 (nov * (width + 1.0) / (nov + width).max(R::from(TINY))).sqrt()
             }
         }
+    }
+
+    /// The n·v at this place.
+    pub fn inverse(self, least: f64, place: f64, roughness: f64) -> f64 {
+        let nov = match self {
+            Along::Nov => place,
+            Along::Sqrt => place * place,
+            Along::Cbrt => place * place * place,
+            Along::Layer(k) => {
+                let (width, squared) = (roughness * roughness * k, place * place);
+                // 0/0 at a mirror's n·v = 1.
+                if place >= 1.0 { 1.0 } else { squared * width / (width + 1.0 - squared) }
+            }
+        };
+        (least + (1.0 - least) * nov).min(1.0)
     }
 
     /// Its word in files.
@@ -85,6 +100,19 @@ impl Across {
     pub fn at<R: Real>(self, region: &Region, roughness: R) -> R {
         let [low, high] = region.roughness.map(|end| self.of::<f64>(end));
         (self.of(roughness) - low) * (1.0 / (high - low))
+    }
+
+    /// The roughness at this place.
+    pub fn inverse(self, region: &Region, place: f64) -> f64 {
+        let [low, high] = region.roughness;
+        let [first, last] = region.roughness.map(|end| self.of::<f64>(end));
+        let power = first + (last - first) * place;
+        let roughness = match self {
+            Across::Linear => power,
+            Across::Sqrt => power * power,
+            Across::Power(p) => libm::pow(power, 1.0 / p),
+        };
+        roughness.clamp(low, high)
     }
 
     /// Its word in files.

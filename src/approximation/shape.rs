@@ -6,7 +6,8 @@ use crate::numeric::lanes::{Real, Vector};
 /// A shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
-    /// A polynomial in a coordinate along n·v, for one roughness: its number i is the factor of x^i.
+    /// A polynomial in a coordinate along n·v, for one roughness: its number i is the factor of
+    /// x^i.
     Polynomial {
         /// The coordinate, counted from n·v = 0.
         x: Along,
@@ -20,8 +21,8 @@ pub enum Shape {
         /// The number of powers of x.
         columns: usize,
     },
-    /// A uniform B-spline in two coordinates from 0 to 1: number j·columns + i is the control point in
-    /// column i and row j.
+    /// A uniform B-spline in two coordinates from 0 to 1: number j·columns + i is the control point
+    /// in column i and row j.
     Spline {
         /// Along n·v, counted from the region's least.
         x: Along,
@@ -62,8 +63,8 @@ pub fn weights<R: Real>(degree: usize, f: R) -> [R; 4] {
     }
 }
 
-/// The span of each lane's place, from 0 to 1, on an axis of `count` control points, and the weights
-/// there.
+/// The span of each lane's place, from 0 to 1, on an axis of `count` control points, and the
+/// weights there.
 fn spans<V: Vector>(degree: usize, count: usize, place: V) -> (Vec<usize>, [V; 4]) {
     let last = count - degree - 1;
     let place = place.max(V::from(0.0)).min(V::from(1.0)) * (count - degree) as f64;

@@ -4,7 +4,7 @@ mod names;
 
 use super::device_args::DeviceArgs;
 use super::table_args::{Job, TableArgs};
-use super::{config, depfile, output, progress::Progress, resources, standard_output, usage};
+use super::{config, depfile, output, plan, progress::Progress, resources, standard_output, usage};
 use crate::backend::Backend;
 use crate::backend::device::GpuOptions;
 use crate::bake::Plan;
@@ -20,7 +20,7 @@ pub struct BakeArgs {
     #[command(flatten, next_help_heading = "The table")]
     table: TableArgs,
     /// Bake every [[table]] of this TOML file; its keys are the names of the flags above, its
-    /// outputs relative to it
+    /// outputs relative to it; or write the outputs of a plan of splitsum plan
     #[arg(long, value_name = "FILE", help_heading = "The run", conflicts_with = "TableArgs")]
     config: Option<String>,
     #[command(flatten, next_help_heading = "The run")]
@@ -70,6 +70,11 @@ struct Baked {
 }
 
 pub fn run(arguments: BakeArgs) -> Result<()> {
+    if let Some(path) =
+        arguments.config.as_ref().filter(|path| plan::is_plan(path).is_ok_and(|is| is))
+    {
+        return plan::carry_out(path, arguments.dry_run, arguments.quiet);
+    }
     let jobs = match &arguments.config {
         Some(path) => config::read(path)?,
         None => vec![arguments.table.job()?],

@@ -248,6 +248,10 @@ fn about(texels: &Texels) -> Vec<String> {
                 Claim::Certificate(certificate) => {
                     format!("certified: {}; BLAKE3 {}", certificate.promise, certificate.blake3)
                 }
+                Claim::Fitted { filter, measured_error: (error, points), .. } => format!(
+                    "fitted, read as a {filter}: E(F0) errs by {error:.1e}, measured at {points} \
+                     points"
+                ),
                 Claim::Estimated { estimator, measured_error: (error, _) } => {
                     format!("not certified: by {estimator}, its integrals off by {error:.1e}")
                 }

@@ -1,4 +1,5 @@
-//! The languages in words: what differs between them, and nothing else. C and Rust have no textures.
+//! The languages in words: what differs between them, and nothing else. C and Rust have no
+//! textures.
 
 use super::Language;
 use crate::table::axis::{SHADING, Words};

@@ -32,6 +32,8 @@ pub enum Parameter {
     Exponent,
     /// Reflectance at normal incidence, from slice to slice.
     F0,
+    /// The place of a control point among those of a fitted net: no bake has it.
+    Control,
 }
 
 choice!(Parameter, "axis", {
@@ -40,6 +42,7 @@ choice!(Parameter, "axis", {
     Alpha = "alpha", "the width of the distribution of normals";
     Exponent = "exponent", "n = 10^(7p), Blinn-Phong's";
     F0 = "f0", "reflectance at normal incidence, from slice to slice";
+    Control = "control", "control points of a fitted net";
 });
 
 /// The mapping from a position t in [0, 1] along the axis to the parameter p in [0, 1].
@@ -140,7 +143,9 @@ impl Axis {
                 Parameter::Roughness => PerceptualRoughness::of_texel(value).map(drop),
                 Parameter::Alpha => Alpha::of_texel(value).map(drop),
                 // The same range: p in [0, 1] is every exponent from 1 to 1e7.
-                Parameter::Exponent | Parameter::F0 => F0::new(value).map(drop),
+                Parameter::Exponent | Parameter::F0 | Parameter::Control => {
+                    F0::new(value).map(drop)
+                }
             };
             checked.map_err(|error| match error {
                 Error::BadInput(mut complaint) => {

@@ -22,6 +22,22 @@ pub enum Claim {
         /// Backend, arithmetic and device.
         computed_by: String,
     },
+    /// The values are control points of a fitted net: none is an integral. The promise is that of
+    /// a lookup.
+    Fitted {
+        /// Always `fitted`: nodes are no integrals.
+        nodes: &'static str,
+        /// How a lookup reads them.
+        filter: String,
+        /// Where its promise holds.
+        domain: String,
+        /// The tolerance of E(F0).
+        tolerance: String,
+        /// The largest error of E(F0) found, and the number of places compared.
+        measured_error: (f64, usize),
+        /// BLAKE3 of the numbers with their scales, as the plan has it.
+        blake3: String,
+    },
     /// The values are those of an engine's own estimator, which has no bound.
     Estimated {
         /// The estimator.
@@ -104,7 +120,7 @@ impl Claim {
     pub fn certificate(&self) -> Option<&Certificate> {
         match self {
             Claim::Certificate(certificate) => Some(certificate),
-            Claim::Uncertified { .. } | Claim::Estimated { .. } => None,
+            Claim::Uncertified { .. } | Claim::Estimated { .. } | Claim::Fitted { .. } => None,
         }
     }
 }

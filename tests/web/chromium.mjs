@@ -31,6 +31,7 @@ const FLAGS = [
 
 // Lists the types that a browser insists on. Anything else is plain bytes.
 const TYPES = {
+  '.html': 'text/html',
   '.js': 'text/javascript',
   '.mjs': 'text/javascript',
   '.json': 'application/json',

@@ -23,9 +23,11 @@ impl Axis {
                 let factor = (words.number)(std::f64::consts::LOG10_2 / 7.0);
                 format!("({} * {factor})", (words.log2)(p))
             }
-            Parameter::Nov | Parameter::Roughness | Parameter::Alpha | Parameter::F0 => {
-                p.to_owned()
-            }
+            Parameter::Nov
+            | Parameter::Roughness
+            | Parameter::Alpha
+            | Parameter::F0
+            | Parameter::Control => p.to_owned(),
         };
         let zero = (words.number)(0.0);
         match self.spec.mapping {

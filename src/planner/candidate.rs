@@ -1,0 +1,113 @@
+//! Candidates: what can be stored for a lookup, before it has numbers.
+
+use super::chebyshev::Chebyshev;
+use super::fit::Fit;
+use crate::approximation::{
+    Across, Along, Approximation, Channels, Numbers, Region, Shape, Storage,
+};
+use crate::brdf::Microfacet;
+
+/// A candidate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate {
+    /// The channels.
+    pub channels: Channels,
+    /// The shape.
+    pub shape: Shape,
+    /// The numbers in each channel.
+    pub counts: [usize; 2],
+    /// Their storage.
+    pub storage: Storage,
+}
+
+/// k of [`Along::Layer`]: of 1 to 8, 3 and 4 are the best over the regions that were tried.
+const LAYERS: [f64; 2] = [3.0, 4.0];
+
+/// Coordinates of a polynomial in n·v.
+pub const ALONG: [Along; 4] = [Along::Nov, Along::Sqrt, Along::Cbrt, Along::Layer(3.0)];
+
+/// Control points along n·v, from the fewest to the most.
+const COLUMNS: std::ops::RangeInclusive<usize> = 3..=28;
+
+/// Rows of a spline: from one fewer than columns to half as many more.
+fn rows(columns: usize) -> std::ops::RangeInclusive<usize> {
+    columns - 1..=columns + columns.div_ceil(2)
+}
+
+/// Powers of the coordinates of a surface.
+const POWERS: [std::ops::RangeInclusive<usize>; 2] = [3..=8, 2..=8];
+
+impl Candidate {
+    /// The approximation with the numbers of a fit.
+    pub fn with(&self, fit: &Fit, lobe: Microfacet, region: Region) -> Approximation {
+        let store = |numbers: &Vec<f64>| match self.shape {
+            Shape::Spline { .. } => self.storage.store(numbers),
+            shape => {
+                let count = self.counts[0].max(self.counts[1]);
+                let basis = Chebyshev::of(&shape, &region, count);
+                self.storage.store(&basis.in_powers(numbers))
+            }
+        };
+        let numbers = fit.numbers.iter().map(store).collect();
+        Approximation { lobe, region, channels: self.channels, shape: self.shape, numbers }
+    }
+
+    /// The candidate that an approximation was.
+    pub fn of(approximation: &Approximation) -> Self {
+        let Approximation { channels, shape, numbers, .. } = approximation;
+        let count = |channel: usize| numbers.get(channel).map_or(0, Numbers::len);
+        let storage = numbers.first().map_or(Storage::F32, Numbers::storage);
+        Candidate { channels: *channels, shape: *shape, counts: [count(0), count(1)], storage }
+    }
+
+    /// Polynomials in n·v with these numbers in each channel, for one roughness, in each storage.
+    pub fn polynomials(channels: Channels, x: Along, counts: [usize; 2]) -> [Self; 2] {
+        let shape = Shape::Polynomial { x };
+        [Storage::F16, Storage::F32].map(|storage| Candidate { channels, shape, counts, storage })
+    }
+}
+
+/// The channels for a range of F0.
+pub fn channels(f0: [f64; 2]) -> [Channels; 2] {
+    match f0[0] == f0[1] {
+        true => [Channels::Ratio, Channels::Albedo],
+        false => [Channels::EnergyRest, Channels::BiasEnergy],
+    }
+}
+
+/// Every candidate over a range of roughness.
+pub fn over_roughness(f0: [f64; 2]) -> Vec<Candidate> {
+    let channels = channels(f0)[0];
+    let mut candidates = Vec::new();
+    let add = |candidates: &mut Vec<Candidate>, shape, count, storages: &[Storage]| {
+        candidates.extend(storages.iter().map(|&storage| {
+            let counts = [count, if channels.count() == 2 { count } else { 0 }];
+            Candidate { channels, shape, counts, storage }
+        }));
+    };
+    let across = [Across::Sqrt, Across::Linear];
+    for degree in [3, 2, 1] {
+        for columns in COLUMNS.filter(|columns| *columns > degree) {
+            for rows in rows(columns).filter(|rows| *rows > degree) {
+                for x in LAYERS.map(Along::Layer) {
+                    for y in across {
+                        let shape = Shape::Spline { x, y, size: [columns, rows], degree };
+                        let storages = [Storage::Unorm8, Storage::Unorm16];
+                        add(&mut candidates, shape, columns * rows, &storages);
+                    }
+                }
+            }
+        }
+    }
+    for columns in POWERS[0].clone() {
+        for rows in POWERS[1].clone().filter(|rows| *rows <= columns + 1) {
+            for x in [Along::Sqrt, Along::Layer(3.0)] {
+                for y in across {
+                    let shape = Shape::Surface { x, y, columns };
+                    add(&mut candidates, shape, columns * rows, &[Storage::F32]);
+                }
+            }
+        }
+    }
+    candidates
+}

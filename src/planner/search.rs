@@ -1,0 +1,337 @@
+//! The search: candidates from the cheapest on, each proved to fail, found to fail, or verified,
+//! until one passes.
+
+use super::candidate::{ALONG, Candidate, channels, over_roughness};
+use super::cost::{Cost, Weights};
+use super::domain::{Domain, Piece};
+use super::fit::{Effort, Fit, Multiplier, Problem};
+use super::samples::{BESIDE_THE_LAYER, Sample, Spread, on_grid, samples};
+use super::tolerance::Tolerance;
+use super::truth::Truth;
+use super::verify::{self, Worst};
+use crate::approximation::{Along, Approximation, Channels, Region, Shape};
+use rayon::prelude::*;
+
+/// What is asked for.
+#[derive(Clone, Debug)]
+pub struct Task {
+    /// Where lookups have to be right.
+    pub domain: Domain,
+    /// How right.
+    pub tolerance: Tolerance,
+    /// What counts.
+    pub weights: Weights,
+}
+
+/// What became of a candidate.
+#[derive(Clone, Debug)]
+pub enum Verdict {
+    /// No numbers whatever meet the tolerance: the largest error over it is at least `bound`.
+    Fails {
+        /// At least 1.
+        bound: f64,
+        /// The proof.
+        proof: Vec<Multiplier>,
+    },
+    /// The numbers that were found miss it; others may not.
+    NotFound(Worst),
+    /// It meets the tolerance.
+    Passes(Worst),
+}
+
+/// A candidate and what became of it.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    /// The candidate.
+    pub candidate: Candidate,
+    /// Its region.
+    pub region: Region,
+    /// Its range of F0.
+    pub f0: [f64; 2],
+    /// Its cost.
+    pub cost: Cost,
+    /// The outcome.
+    pub verdict: Verdict,
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// One approximation for all, or one for each piece of the domain.
+    pub choice: Vec<(Approximation, Worst)>,
+    /// Its cost.
+    pub cost: Cost,
+    /// Everything that was tried.
+    pub trials: Vec<Trial>,
+}
+
+/// Most numbers of a polynomial in n·v.
+pub const MOST_POWERS: usize = 14;
+
+/// Samples of a polynomial.
+const ALONG_A_LINE: [Spread; 2] = [Spread::Crowded(97), Spread::Crowded(1)];
+
+/// Samples of a surface.
+const ON_A_SURFACE: [Spread; 2] = [Spread::Crowded(33), Spread::Crowded(25)];
+
+/// Samples in a span of a spline.
+const IN_A_SPAN: [Spread; 2] = [Spread::Crowded(6); 2];
+
+/// Further samples, in coordinates that do not follow the layer at grazing angles: next to a mirror
+/// those that do are all at n·v near 0 or at 1.
+const BESIDE: [Spread; 2] = [Spread::Crowded(17), Spread::Crowded(13)];
+
+/// Steps of a fit.
+const EFFORT: Effort = Effort { steps: 24, fails: FAILS };
+
+/// An error over its tolerance that passes. Between the points where it is measured an error is
+/// larger than at them by 1.4 % at the most.
+pub const PASSES: f64 = 0.98;
+
+/// A lower bound of the error over its tolerance that fails a candidate: proofs are rounded.
+pub const FAILS: f64 = 1.001;
+
+/// Candidates that are tried at a time.
+const AT_A_TIME: usize = 16;
+
+/// The cheapest choice that meets the tolerance; none among the candidates is an empty choice.
+pub fn search(task: &Task, truth: &Truth) -> Outcome {
+    let whole = task.domain.whole();
+    let truth_error = whole.map_or(0.0, |(region, f0)| truth.error(&region, f0, task.tolerance));
+    let search = Search { task, truth, truth_error };
+    let mut trials = Vec::new();
+    let lines = if task.domain.is_constant() { search.lines(&mut trials) } else { None };
+    let limit = lines.as_ref().map(|(_, cost)| cost.weighed(&task.weights));
+    let chosen = search.over_roughness(limit, &mut trials).or(lines);
+    let (choice, cost) = chosen.unwrap_or_default();
+    Outcome { choice, cost, trials }
+}
+
+/// The search for a polynomial of one kind.
+struct Line<'a> {
+    search: &'a Search<'a>,
+    region: Region,
+    f0: [f64; 2],
+    points: Vec<Sample>,
+    trials: Vec<Trial>,
+    best: Option<(Approximation, Worst, Cost)>,
+}
+
+impl Line<'_> {
+    /// Tries candidates that differ in storage, and says whether they are proved to fail.
+    fn attempt(&mut self, same: &[Candidate]) -> bool {
+        let tried = self.search.attempt(same, self.region, self.f0, &self.points);
+        let mut fails = false;
+        for (trial, approximation) in tried {
+            fails |= matches!(trial.verdict, Verdict::Fails { .. });
+            if let (Verdict::Passes(worst), Some(approximation)) = (&trial.verdict, approximation)
+                && !self.is_beaten(trial.cost)
+            {
+                self.best = Some((approximation, *worst, trial.cost));
+            }
+            self.trials.push(trial);
+        }
+        fails
+    }
+
+    /// Whether the best so far costs no more than any of these.
+    fn is_done(&self, same: &[Candidate]) -> bool {
+        same.iter().all(|candidate| self.is_beaten(Cost::of(candidate, &self.region)))
+    }
+
+    /// Whether the best so far costs no more than this.
+    fn is_beaten(&self, cost: Cost) -> bool {
+        let weights = &self.search.task.weights;
+        let best = self.best.as_ref();
+        best.is_some_and(|(_, _, least)| least.weighed(weights) <= cost.weighed(weights))
+    }
+}
+
+/// A choice and its cost.
+type Choice = (Vec<(Approximation, Worst)>, Cost);
+
+struct Search<'a> {
+    task: &'a Task,
+    truth: &'a Truth,
+    /// The error of the truth over the tolerance.
+    truth_error: f64,
+}
+
+impl Search<'_> {
+    /// A polynomial in n·v for each piece, where all have one.
+    fn lines(&self, trials: &mut Vec<Trial>) -> Option<Choice> {
+        let of_piece = |piece: &Piece| self.line(piece);
+        let found: Vec<_> = self.task.domain.pieces.par_iter().map(of_piece).collect();
+        let mut choice = Vec::new();
+        let mut cost = Cost::default();
+        let mut is_whole = true;
+        for (best, tried) in found {
+            trials.extend(tried);
+            match best {
+                Some((approximation, worst, own)) => {
+                    choice.push((approximation, worst));
+                    cost = cost + own;
+                }
+                None => is_whole = false,
+            }
+        }
+        is_whole.then_some((choice, cost))
+    }
+
+    /// The cheapest polynomial for a piece.
+    fn line(&self, piece: &Piece) -> (Option<(Approximation, Worst, Cost)>, Vec<Trial>) {
+        let region = self.task.domain.region_of(piece);
+        let forms = channels(piece.f0);
+        let ways: Vec<(Channels, Along)> =
+            forms.iter().flat_map(|&form| ALONG.map(|x| (form, x))).collect();
+        let of_way = |&(form, x): &(Channels, _)| self.shortest(form, x, region, piece.f0);
+        let found: Vec<_> = ways.par_iter().map(of_way).collect();
+        let mut trials = Vec::new();
+        let mut best: Option<(Approximation, Worst, Cost)> = None;
+        for (passed, tried) in found {
+            trials.extend(tried);
+            let Some((approximation, worst, cost)) = passed else { continue };
+            let is_cheaper = best.as_ref().is_none_or(|(_, _, least)| {
+                cost.weighed(&self.task.weights) < least.weighed(&self.task.weights)
+            });
+            if is_cheaper {
+                best = Some((approximation, worst, cost));
+            }
+        }
+        (best, trials)
+    }
+
+    /// The polynomial with the fewest numbers in these channels and this coordinate.
+    fn shortest(
+        &self,
+        channels: Channels,
+        x: Along,
+        region: Region,
+        f0: [f64; 2],
+    ) -> (Option<(Approximation, Worst, Cost)>, Vec<Trial>) {
+        let points = samples(self.truth, &region, &Shape::Polynomial { x }, ALONG_A_LINE);
+        let mut line = Line { search: self, region, f0, points, trials: Vec::new(), best: None };
+        let of = |counts| Candidate::polynomials(channels, x, counts);
+        if channels.count() == 1 {
+            for count in 1..=MOST_POWERS {
+                if line.is_done(&of([count, 0])) {
+                    break;
+                }
+                line.attempt(&of([count, 0]));
+            }
+            return (line.best, line.trials);
+        }
+        // With as many numbers as there may be in the other channel, how few are not proved to
+        // fail?
+        let fewest = [[1, 0], [0, 1]].map(|own: [usize; 2]| {
+            let counts = |few| own.map(|own| if own == 1 { few } else { MOST_POWERS });
+            (0..=MOST_POWERS).find(|&few| !line.attempt(&of(counts(few))))
+        });
+        let [Some(first), Some(second)] = fewest else { return (None, line.trials) };
+        line.best = None;
+        for sum in (first + second).max(1)..=2 * MOST_POWERS {
+            if line.is_done(&of([sum, 0])) {
+                break;
+            }
+            let most = MOST_POWERS.min(sum - second);
+            for count in first.max(sum.saturating_sub(MOST_POWERS))..=most {
+                line.attempt(&of([count, sum - count]));
+            }
+        }
+        (line.best, line.trials)
+    }
+
+    /// The cheapest spline or surface over all roughnesses, cheaper than the limit.
+    fn over_roughness(&self, limit: Option<f64>, trials: &mut Vec<Trial>) -> Option<Choice> {
+        let (region, f0) = self.task.domain.whole()?;
+        if region.roughness[0] == region.roughness[1] {
+            return None;
+        }
+        let weights = &self.task.weights;
+        let cost = |candidate: &Candidate| Cost::of(candidate, &region).weighed(weights);
+        let mut candidates = over_roughness(f0);
+        candidates.retain(|candidate| limit.is_none_or(|limit| cost(candidate) < limit));
+        candidates.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
+        // The storages of one shape are tried together, with the cheapest of them.
+        let mut queue: Vec<Vec<Candidate>> = Vec::new();
+        for candidate in candidates {
+            match queue
+                .iter_mut()
+                .find(|same| same[0].shape == candidate.shape && same[0].counts == candidate.counts)
+            {
+                Some(same) => same.push(candidate),
+                None => queue.push(vec![candidate]),
+            }
+        }
+        let mut best: Option<(Choice, f64)> = None;
+        for batch in queue.chunks(AT_A_TIME) {
+            if best.as_ref().is_some_and(|(_, least)| cost(&batch[0][0]) >= *least) {
+                break;
+            }
+            let attempts = batch.par_iter().map(|same| {
+                let spread = match same[0].shape {
+                    Shape::Spline { .. } => IN_A_SPAN,
+                    _ => ON_A_SURFACE,
+                };
+                let mut points = samples(self.truth, &region, &same[0].shape, spread);
+                let beside = on_grid(self.truth, &region, BESIDE_THE_LAYER, (BESIDE, [1, 1]));
+                points.extend(beside);
+                self.attempt(same, region, f0, &points)
+            });
+            let attempts: Vec<_> = attempts.collect();
+            for (trial, approximation) in attempts.into_iter().flatten() {
+                if let (Verdict::Passes(worst), Some(approximation)) =
+                    (&trial.verdict, approximation)
+                {
+                    let own = trial.cost.weighed(weights);
+                    if best.as_ref().is_none_or(|(_, least)| own < *least) {
+                        best = Some(((vec![(approximation, *worst)], trial.cost), own));
+                    }
+                }
+                trials.push(trial);
+            }
+        }
+        best.map(|(choice, _)| choice)
+    }
+
+    /// Tries candidates of one shape, which differ in storage.
+    fn attempt(
+        &self,
+        same: &[Candidate],
+        region: Region,
+        f0: [f64; 2],
+        points: &[Sample],
+    ) -> Vec<(Trial, Option<Approximation>)> {
+        let Task { tolerance, .. } = *self.task;
+        let Candidate { channels, shape, counts, .. } = same[0];
+        let problem = Problem { region, f0, tolerance, channels, shape, counts, samples: points };
+        let fails = FAILS + self.truth_error;
+        let fit = problem.fit(Effort { fails, ..EFFORT });
+        let trial = |candidate: &Candidate, verdict| Trial {
+            candidate: *candidate,
+            region,
+            f0,
+            cost: Cost::of(candidate, &region),
+            verdict,
+        };
+        let Some(fit) = fit else { return Vec::new() };
+        if fit.bound > FAILS + self.truth_error {
+            let Fit { bound, proof, .. } = fit;
+            let fails = |candidate| {
+                (trial(candidate, Verdict::Fails { bound, proof: proof.clone() }), None)
+            };
+            return same.iter().map(fails).collect();
+        }
+        let places = verify::points(self.truth, &region, &shape);
+        same.iter()
+            .map(|candidate| {
+                let approximation = candidate.with(&fit, self.truth.lobe(), region);
+                let worst = verify::measure(&approximation, f0, tolerance, &places);
+                let passes = worst.share <= PASSES - self.truth_error;
+                let verdict =
+                    if passes { Verdict::Passes(worst) } else { Verdict::NotFound(worst) };
+                (trial(candidate, verdict), passes.then_some(approximation))
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,86 @@
+//! What a lookup errs by, in the arithmetic of a shader, at points that it was not fitted to.
+
+use super::samples::{BESIDE_THE_LAYER, Sample, Spread, on_grid, samples};
+use super::tolerance::Tolerance;
+use super::truth::Truth;
+use crate::approximation::{Approximation, Region, Shape};
+use crate::numeric::lanes::{F32x16, Vector};
+use rayon::prelude::*;
+
+/// The largest error over its tolerance, and its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Worst {
+    /// The error over its tolerance.
+    pub share: f64,
+    /// The error of E(F0), the approximation less the truth.
+    pub error: f64,
+    /// n·v
+    pub nov: f64,
+    /// Perceptual roughness.
+    pub roughness: f64,
+    /// F0
+    pub f0: f64,
+    /// The points that were measured.
+    pub points: usize,
+}
+
+/// Points in each span of a spline, along either axis.
+const IN_A_SPAN: Spread = Spread::Even(8);
+
+/// Points in coordinates that do not follow the layer at grazing angles, along n·v and across
+/// roughness; of a shape without spans as many again in coordinates that do.
+const IN_ALL: [Spread; 2] = [Spread::Even(193), Spread::Even(61)];
+
+/// The points where an approximation is verified.
+pub fn points(truth: &Truth, region: &Region, shape: &Shape) -> Vec<Sample> {
+    points_at(truth, region, shape, IN_A_SPAN, IN_ALL)
+}
+
+/// The same with so many points in each span, or in all.
+pub fn points_at(
+    truth: &Truth,
+    region: &Region,
+    shape: &Shape,
+    in_a_span: Spread,
+    in_all: [Spread; 2],
+) -> Vec<Sample> {
+    let spread = if let Shape::Spline { .. } = shape { [in_a_span; 2] } else { in_all };
+    let mut points = samples(truth, region, shape, spread);
+    points.extend(on_grid(truth, region, BESIDE_THE_LAYER, (in_all, [1, 1])));
+    points
+}
+
+/// Measures an approximation at these points, at both ends of a range of F0: the error is linear in
+/// F0, and the tolerance concave, so that nothing between is worse.
+pub fn measure(
+    approximation: &Approximation,
+    f0: [f64; 2],
+    tolerance: Tolerance,
+    points: &[Sample],
+) -> Worst {
+    let none = Worst { share: 0.0, error: 0.0, nov: 1.0, roughness: 1.0, f0: f0[0], points: 0 };
+    let of_chunk = |chunk: &[Sample]| {
+        let last = chunk.len() - 1;
+        let nov = F32x16::gather(|i| chunk[i.min(last)].nov);
+        let roughness = F32x16::gather(|i| chunk[i.min(last)].roughness);
+        let mut worst = none;
+        for f0 in f0 {
+            let albedo = approximation.albedo(nov, roughness, F32x16::from(f0));
+            for (i, sample) in chunk.iter().enumerate() {
+                let truth = sample.truth.at(f0);
+                let error = albedo.lane(i) - truth;
+                let share = error.abs() / tolerance.at(truth);
+                // What is no number counts as the worst.
+                if share.is_nan() || share > worst.share {
+                    let share = if share.is_nan() { f64::INFINITY } else { share };
+                    let Sample { nov, roughness, .. } = *sample;
+                    worst = Worst { share, error, nov, roughness, f0, points: 0 };
+                }
+            }
+        }
+        worst
+    };
+    let larger = |a: Worst, b: Worst| if b.share > a.share { b } else { a };
+    let worst = points.par_chunks(16).map(of_chunk).reduce(|| none, larger);
+    Worst { points: points.len(), ..worst }
+}
