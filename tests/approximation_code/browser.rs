@@ -1,11 +1,10 @@
 //! Every case in Chromium: the generated GLSL on WebGL2 and the generated WGSL on WebGPU, at 65,536
 //! points.
 
-use crate::cases::{Case, cases};
+use crate::cases::{Case, allowed, cases};
 use crate::common::printed;
 use libtest_mimic::Failed;
 use serde_json::{Value, json};
-use splitsum::approximation::{Across, Along, Shape};
 use splitsum::lookup::Language;
 use std::fs;
 use std::path::Path;
@@ -35,17 +34,6 @@ pub fn every_case() -> Result<(), Failed> {
         assert!(largest <= allowed, "{allowed:e} allowed: {result}");
     }
     Ok(())
-}
-
-/// The largest difference, in proportion to the weighted numbers: on SwiftShader 7e-7, and 2.2e-6
-/// with powers, which are those of exponentials and logarithms.
-fn allowed(case: &Case) -> f64 {
-    let power = |x, y| x == Along::Cbrt || matches!(y, Some(Across::Power(_)));
-    let by_power = case.approximations.iter().any(|one| match one.shape {
-        Shape::Polynomial { x } => power(x, None),
-        Shape::Surface { x, y, .. } | Shape::Spline { x, y, .. } => power(x, Some(y)),
-    });
-    if by_power { 5e-6 } else { 2e-6 }
 }
 
 /// Writes code, points and expected values, and names them; the largest sum of weighted numbers.

@@ -13,14 +13,16 @@ pub struct Packing<'a> {
 }
 
 impl<'a> Packing<'a> {
-    /// Codes stay codes where all channels have as many of the same bits. What is mixed, or ends
-    /// sooner in one channel than in the other, is packed as floats: a sum of powers goes on with
-    /// zeros.
+    /// Codes stay codes where all channels have as many of the same bits. Halves, what is mixed, and
+    /// what ends sooner in one channel than in the other are packed as floats: a sum of powers goes
+    /// on with zeros.
     pub fn of(approximation: &'a Approximation) -> Self {
         let channels = || approximation.numbers.iter().filter(|numbers| !numbers.is_empty());
         let count = channels().map(Numbers::len).max().unwrap_or(0);
         let mut storage = channels().next().map_or(Storage::F32, Numbers::storage);
-        if channels().any(|numbers| numbers.storage() != storage || numbers.len() != count) {
+        let is_mixed =
+            channels().any(|numbers| numbers.storage() != storage || numbers.len() != count);
+        if is_mixed || storage == Storage::F16 {
             storage = Storage::F32;
         }
         Packing { approximation, storage, count }
