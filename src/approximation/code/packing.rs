@@ -13,9 +13,9 @@ pub struct Packing<'a> {
 }
 
 impl<'a> Packing<'a> {
-    /// Codes stay codes where all channels have as many of the same bits. Halves, what is mixed, and
-    /// what ends sooner in one channel than in the other are packed as floats: a sum of powers goes
-    /// on with zeros.
+    /// Codes stay codes where all channels have as many of the same bits. Halves, what is mixed,
+    /// and what ends sooner in one channel than in the other are packed as floats: a sum of powers
+    /// goes on with zeros.
     pub fn of(approximation: &'a Approximation) -> Self {
         let channels = || approximation.numbers.iter().filter(|numbers| !numbers.is_empty());
         let count = channels().map(Numbers::len).max().unwrap_or(0);
