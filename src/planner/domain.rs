@@ -15,6 +15,9 @@ pub struct Piece {
     pub f0: [f64; 2],
 }
 
+/// Pieces that reports look at one by one.
+const MOST_PIECES: usize = 64;
+
 /// All pieces, and the least n·v at which they are looked up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Domain {
@@ -56,6 +59,11 @@ impl Domain {
     /// Whether every piece has one roughness.
     pub fn is_constant(&self) -> bool {
         self.pieces.iter().all(|piece| piece.roughness[0] == piece.roughness[1])
+    }
+
+    /// The pieces, or as many of them, evenly, as there is time to look at one by one.
+    pub fn some_pieces(&self) -> impl Iterator<Item = &Piece> {
+        self.pieces.iter().step_by(self.pieces.len().div_ceil(MOST_PIECES).max(1))
     }
 
     /// The region of a piece.

@@ -54,7 +54,7 @@ impl fmt::Display for Engine {
 /// The engines' tables over a domain, at points and nowhere between.
 pub fn engines(domain: &Domain, tolerance: Tolerance, truth: &Truth) -> Result<Vec<Engine>> {
     let mut points: Vec<(Sample, [f64; 2])> = Vec::new();
-    for piece in &domain.pieces {
+    for piece in domain.some_pieces() {
         let region = domain.region_of(piece);
         let layer = (Along::Layer(3.0), Across::Sqrt);
         let samples = on_grid(truth, &region, layer, (PLACES, [1, 1]));

@@ -40,7 +40,7 @@ const HALF_VECTORS: usize = 40;
 /// What is left out over a domain, the largest error of each.
 pub fn model_errors(domain: &Domain, truth: &Truth) -> Vec<ModelError> {
     let mut errors: Vec<ModelError> = Vec::new();
-    let found = domain.pieces.iter().flat_map(|piece| of_piece(domain.least_nov, piece, truth));
+    let found = domain.some_pieces().flat_map(|piece| of_piece(domain.least_nov, piece, truth));
     for error in found {
         match errors.iter_mut().find(|other| other.what == error.what) {
             Some(other) if error.error.abs() > other.error.abs() => *other = error,

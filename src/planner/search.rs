@@ -65,6 +65,9 @@ pub struct Outcome {
     pub trials: Vec<Trial>,
 }
 
+/// Most roughnesses that have a polynomial each; real scenes have up to 40.
+const MOST_CONSTANTS: usize = 64;
+
 /// Most numbers of a polynomial in n·v.
 pub const MOST_POWERS: usize = 14;
 
@@ -100,7 +103,8 @@ pub fn search(task: &Task, truth: &Truth) -> Outcome {
     let truth_error = whole.map_or(0.0, |(region, f0)| truth.error(&region, f0, task.tolerance));
     let search = Search { task, truth, truth_error };
     let mut trials = Vec::new();
-    let lines = if task.domain.is_constant() { search.lines(&mut trials) } else { None };
+    let may_be_lines = task.domain.is_constant() && task.domain.pieces.len() <= MOST_CONSTANTS;
+    let lines = if may_be_lines { search.lines(&mut trials) } else { None };
     let limit = lines.as_ref().map(|(_, cost)| cost.weighed(&task.weights));
     let chosen = search.over_roughness(limit, &mut trials).or(lines);
     let (choice, cost) = chosen.unwrap_or_default();
@@ -251,24 +255,16 @@ impl Search<'_> {
         let cost = |candidate: &Candidate| Cost::of(candidate, &region).weighed(weights);
         let mut candidates = over_roughness(f0);
         candidates.retain(|candidate| limit.is_none_or(|limit| cost(candidate) < limit));
-        candidates.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
-        // The storages of one shape are tried together, with the cheapest of them.
-        let mut queue: Vec<Vec<Candidate>> = Vec::new();
-        for candidate in candidates {
-            match queue
-                .iter_mut()
-                .find(|same| same[0].shape == candidate.shape && same[0].counts == candidate.counts)
-            {
-                Some(same) => same.push(candidate),
-                None => queue.push(vec![candidate]),
-            }
-        }
+        // The storages of one shape stand side by side: they are tried together, with the cheapest.
+        let is_same = |a: &Candidate, b: &Candidate| a.shape == b.shape && a.counts == b.counts;
+        let mut queue: Vec<&[Candidate]> = candidates.chunk_by(is_same).collect();
+        queue.sort_by(|a, b| cost(&a[0]).total_cmp(&cost(&b[0])));
         let mut best: Option<(Choice, f64)> = None;
         for batch in queue.chunks(AT_A_TIME) {
             if best.as_ref().is_some_and(|(_, least)| cost(&batch[0][0]) >= *least) {
                 break;
             }
-            let attempts = batch.par_iter().map(|same| {
+            let attempts = batch.par_iter().map(|&same| {
                 let spread = match same[0].shape {
                     Shape::Spline { .. } => IN_A_SPAN,
                     _ => ON_A_SURFACE,
