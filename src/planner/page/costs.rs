@@ -184,6 +184,11 @@ fn label(svg: &mut Svg, frame: Frame, places: Vec<([f64; 2], &str)>) {
         let boxes: Vec<Extent> = boxes.collect();
         let is_free = |own: &&Extent| taken.iter().all(|other| !overlap(own, other));
         let Some(&place) = boxes.iter().find(is_free).or(boxes.first()) else { continue };
+        let middle = 0.5 * (place[1] + place[3]);
+        if (middle - y).abs() > 16.0 {
+            let end = x.clamp(place[0], place[2]);
+            svg.line("grid", [x, y], [end, if middle > y { place[1] } else { place[3] }]);
+        }
         svg.text([place[0], place[3] - 3.0], "", name);
         taken.push(place);
     }
@@ -225,7 +230,10 @@ fn caption(report: &Report, outcome: &Outcome) -> String {
         text += " Polynomials for a constant roughness are drawn with the bytes of one roughness \
                  alone.";
     }
-    if outcome.trials.iter().any(|trial| point(trial).1[1] == LEAST) {
+    let mut engines = report.engines.iter().map(|engine| engine.worst);
+    if engines.any(|worst| worst < LEAST)
+        || outcome.trials.iter().any(|trial| point(trial).1[1] == LEAST)
+    {
         text += &format!(" Errors below {LEAST} of the tolerance are drawn there.");
     }
     text
