@@ -46,7 +46,7 @@ struct Row {
 /// The outcome of a fit.
 #[derive(Clone, Debug)]
 pub struct Fit {
-    /// The numbers of each channel, in the order of [`Functions`].
+    /// The numbers of each channel, in the order of the system.
     pub numbers: Vec<Vec<f64>>,
     /// The largest error over its tolerance at the samples.
     pub error: f64,

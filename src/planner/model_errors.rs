@@ -64,7 +64,8 @@ fn of_piece(least: f64, piece: &Piece, truth: &Truth) -> Vec<ModelError> {
         let novs: Vec<f64> = (0..PLACES[1]).map(place).collect();
         errors.extend(lost_energy(roughness, &novs, piece, truth));
         if truth.lobe() == LOBE && roughness > 0.0 {
-            for &nov in &novs {
+            // Of visible normals: at n·v = 0 they have no distribution.
+            for &nov in novs.iter().filter(|nov| **nov > 0.0) {
                 errors.extend(fresnel_error(nov, roughness, piece));
             }
             errors.extend(joint_error(roughness, &novs, piece, truth));
@@ -73,7 +74,7 @@ fn of_piece(least: f64, piece: &Piece, truth: &Truth) -> Vec<ModelError> {
     errors
 }
 
-/// The name of what [`joint_error`] finds.
+/// The name of what `joint_error` finds.
 pub const JOINT_TERM: &str = "the correlated masking term, by Unreal's approximation of it";
 
 /// The term of correlated heights less Unreal's approximation (Hammon 2017).
@@ -119,10 +120,10 @@ fn lost_energy(roughness: f64, novs: &[f64], piece: &Piece, truth: &Truth) -> Ve
     novs.iter().zip(albedos.iter().map(|albedo| albedo.e)).map(of_direction).collect()
 }
 
-/// The name of what [`lost_energy`] finds.
+/// The name of what `lost_energy` finds.
 pub const MULTIPLE_SCATTERING: &str = "multiple scattering";
 
-/// The name of what [`fresnel_error`] finds.
+/// The name of what `fresnel_error` finds.
 pub const EXACT_FRESNEL: &str = "exact Fresnel reflectance of dielectrics, instead of Schlick's";
 
 /// Exact reflectance less Schlick's at the ends of the range of F0 that dielectrics have.

@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 pub enum Tolerance {
     /// The same everywhere.
     Absolute(f64),
-    /// A share of E(F0).
+    /// A share of E(F0), which counts as at least 0.001: E(0) has zeros.
     Relative(f64),
     /// Steps of 8-bit sRGB in the radiance that is seen.
     Srgb {
@@ -19,6 +19,9 @@ pub enum Tolerance {
         diffuse: f64,
     },
 }
+
+/// The least albedo that a share is taken of: three steps of 8-bit sRGB in the dark.
+const LEAST: f64 = 1e-3;
 
 /// The derivative of the code of sRGB, from 0 to 1, by linear light (IEC 61966-2-1).
 fn srgb_slope(linear: f64) -> f64 {
@@ -49,7 +52,7 @@ impl Tolerance {
     pub fn at(self, albedo: f64) -> f64 {
         match self {
             Tolerance::Absolute(error) => error,
-            Tolerance::Relative(share) => share * albedo,
+            Tolerance::Relative(share) => share * albedo.max(LEAST),
             Tolerance::Srgb { steps, radiance, diffuse } => {
                 // What is brighter than white is shown as white: its steps are those at white.
                 let seen = (radiance * (albedo + diffuse)).min(1.0);
