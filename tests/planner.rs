@@ -366,6 +366,13 @@ fn a_bake_carries_a_plan_out() {
     std::fs::remove_file(folder.path().join("b.h")).unwrap();
     ok(&folder, "bake --config out/a.toml");
     assert_eq!((read("out/a.wgsl"), read("b.h")), (wgsl, header));
+    // Control points too.
+    let bytes = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    ok(&folder, "plan --roughness 0.4..0.9 --f0 0.04 --tolerance 0.01 -o n.toml --table n.npy");
+    let table = bytes("n.npy");
+    std::fs::remove_file(folder.path().join("n.npy")).unwrap();
+    ok(&folder, "bake --config n.toml");
+    assert_eq!(bytes("n.npy"), table);
     let wrong = read("out/a.toml").replacen("halves = [", "halves = [1.0, ", 1);
     std::fs::write(folder.path().join("out/a.toml"), wrong).unwrap();
     assert_eq!(run(&folder, "bake --config out/a.toml").status.code(), Some(4));

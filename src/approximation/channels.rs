@@ -1,5 +1,6 @@
 //! What the channels of an approximation stand for, and how E(F0) follows from them.
 
+use crate::brdf::fresnel::schlick_weight;
 use crate::choice::choice;
 use crate::numeric::lanes::Real;
 
@@ -27,13 +28,6 @@ choice!(Channels, "channels", {
     ScaleBias = "scale-bias", "A and B of E(F0) = F0 A + B";
     BiasEnergy = "bias-energy", "B and E of E(F0) = (1 - F0) B + F0 E";
 });
-
-/// (1 - n·v)⁵
-pub fn schlick_weight<R: Real>(nov: R) -> R {
-    let c = nov.complement();
-    let c2 = c * c;
-    c2 * c2 * c
-}
 
 impl Channels {
     /// The number of channels.

@@ -145,7 +145,7 @@ pub fn run(arguments: &PlanArgs) -> Result<()> {
         return Err(Error::bad_input("tolerance", "one that a candidate meets", got, cure));
     }
     let mut plan = PlanFile::new(&task, &truth, &outcome, command(arguments))?;
-    plan.outputs = arguments.code.iter().map(|name| output_of(output, name, arguments)).collect();
+    plan.outputs = made(arguments).map(|name| output_of(output, name, arguments)).collect();
     let report = Report {
         scenes: scenes.iter().map(SceneText::new).collect(),
         model_errors: model_errors(&task.domain, &truth),
@@ -162,6 +162,11 @@ pub fn run(arguments: &PlanArgs) -> Result<()> {
         return print_json(&report);
     }
     print(&report.text()?)
+}
+
+/// The files that are made of the choice.
+fn made(arguments: &PlanArgs) -> impl Iterator<Item = &String> {
+    arguments.code.iter().chain(&arguments.table)
 }
 
 /// The lobe that is planned for.
@@ -229,7 +234,7 @@ fn write(arguments: &PlanArgs, output: &str, report: &Report) -> Result<()> {
         .map_err(|error| Error::Internal(format!("plan as TOML: {error}")))?;
     output::write(output, text.as_bytes())?;
     say(arguments, &format!("wrote     {output}"));
-    for name in arguments.code.iter().chain(&arguments.table) {
+    for name in made(arguments) {
         write_output(&report.plan, name, &arguments.prefix)?;
         say(arguments, &format!("wrote     {name}"));
     }
