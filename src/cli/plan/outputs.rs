@@ -86,9 +86,7 @@ pub fn output_of(plan: &str, name: &str, arguments: &PlanArgs) -> Output {
 /// Whether a configuration is a plan.
 pub fn is_plan(path: &str) -> Result<bool> {
     let failed = Error::io("read", path, "name a TOML file that can be read");
-    let file = std::fs::File::open(path).map_err(&failed)?;
-    let mut bytes = Vec::new();
-    file.take(LARGEST_PLAN).read_to_end(&mut bytes).map_err(&failed)?;
+    let bytes = read_at_most(Path::new(path), LARGEST_PLAN).map_err(failed)?.unwrap_or_default();
     let mut lines = bytes.split(|byte| *byte == b'\n');
     Ok(lines.any(|line| line.trim_ascii() == b"[question]"))
 }
@@ -118,18 +116,22 @@ pub fn carry_out(path: &str, only_names: bool, quiet: bool) -> Result<()> {
     Ok(())
 }
 
+/// The bytes of a file; none of one that is larger than `most`, or has no end.
+pub fn read_at_most(path: &Path, most: u64) -> std::io::Result<Option<Vec<u8>>> {
+    let mut bytes = Vec::new();
+    std::fs::File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
+    Ok((bytes.len() as u64 <= most).then_some(bytes))
+}
+
 /// Reads a plan.
 pub fn read_plan(path: &str) -> Result<PlanFile> {
     let failed = Error::io("read", path, "name a plan that can be read");
-    let file = std::fs::File::open(path).map_err(&failed)?;
-    let mut bytes = Vec::new();
-    file.take(LARGEST_PLAN + 1).read_to_end(&mut bytes).map_err(&failed)?;
     let wrong = |got: String| {
         Err(Error::bad_input(path, "a plan of splitsum in TOML", got, "repeat the plan"))
     };
-    if bytes.len() as u64 > LARGEST_PLAN {
+    let Some(bytes) = read_at_most(Path::new(path), LARGEST_PLAN).map_err(failed)? else {
         return wrong("more than 64 MiB".into());
-    }
+    };
     let Ok(text) = String::from_utf8(bytes) else {
         return wrong("bytes that are not UTF-8".into());
     };

@@ -1,12 +1,12 @@
 //! The scenes of a plan: files, or values.
 
 use super::PlanArgs;
+use super::outputs::read_at_most;
 use crate::brdf::{Microfacet, Ndf};
 use crate::cli::usage;
 use crate::error::{Error, Result};
 use crate::planner::domain::Domain;
 use crate::scene::{Assumptions, Layer, Scene, Span, of_values, read};
-use std::io::Read;
 use std::path::Path;
 
 /// A scene, or a file that it names, larger than this is refused.
@@ -59,14 +59,9 @@ fn scene(name: &str, arguments: &PlanArgs) -> Result<Scene> {
 /// The bytes of a file that is not too large; devices and pipes that never end are refused too.
 fn bytes_of(path: &Path, name: &str) -> Result<Vec<u8>> {
     let failed = Error::io("read", name, "name a file that can be read");
-    let file = std::fs::File::open(path).map_err(&failed)?;
-    let mut bytes = Vec::new();
-    file.take(LARGEST_SCENE + 1).read_to_end(&mut bytes).map_err(&failed)?;
-    if bytes.len() as u64 > LARGEST_SCENE {
-        let cure = "make it smaller";
-        return Err(Error::bad_input(name, "at most 512 MiB", "more".to_owned(), cure));
-    }
-    Ok(bytes)
+    read_at_most(path, LARGEST_SCENE).map_err(failed)?.ok_or_else(|| {
+        Error::bad_input(name, "at most 512 MiB", "more".to_owned(), "make it smaller")
+    })
 }
 
 /// The domain of the layers that have this lobe.
