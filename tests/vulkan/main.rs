@@ -2,6 +2,9 @@
 //! ignored, with the reason; where SPLITSUM_REQUIRE_VULKAN is set, that is a failure instead.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
 
+#[path = "../approximation_code/cases.rs"]
+mod approximation_cases;
+mod approximations;
 mod certified;
 #[path = "../common/mod.rs"]
 mod common;
@@ -38,6 +41,7 @@ fn main() {
         tables::TESTS,
         certified::TESTS,
         previews::TESTS,
+        approximations::TESTS,
     ]
     .concat();
     let mut trials: Vec<Trial> = match list_devices() {

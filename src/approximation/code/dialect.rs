@@ -84,9 +84,14 @@ const WGSL: Dialect = Dialect {
     syntax: &syntax::WGSL,
     language: Language::Wgsl,
     index: "u32",
+    // SPIR-V cannot index a constant: naga copies a whole `const` array into a variable of the
+    // function at each such place, and llvmpipe takes minutes to compile the copies of a net of 8
+    // by 8 pairs of floats. A private variable is indexed where it lies. WebGPU promises 8,192
+    // bytes of them: the 28 by 42 control points of a plan take 4,704, and 28 floats for each of
+    // 64 materials take 7,168.
     array: |floats, name, length, members| {
         let kind = if floats { "f32" } else { "u32" };
-        format!("const {name} = array<{kind}, {length}>(\n{members}\n);")
+        format!("var<private> {name} = array<{kind}, {length}>(\n{members}\n);")
     },
     whole: |x, last| format!("min(u32({x}), {last}u)"),
     float: |x| format!("f32({x})"),
