@@ -1,6 +1,10 @@
 //! The files that readers are tried on, with the values that they have to find.
 
-use crate::common::ggx;
+use crate::common::{Random, ggx};
+use splitsum::approximation::table::Promise;
+use splitsum::approximation::{
+    Across, Along, Approximation, Channels, Numbers, Region, Shape, Storage,
+};
 use splitsum::backend::Backend;
 use splitsum::brdf::{Fresnel, Masking};
 use splitsum::format::encoding::Supercompress;
@@ -16,13 +20,15 @@ use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-/// Columns and rows: Babylon.js reads powers of two alone.
-pub const SIZE: (usize, usize) = (32, 16);
+/// Columns and rows of tables: Babylon.js reads powers of two alone.
+const SIZE: (usize, usize) = (32, 16);
 
 /// A file on the disk.
 #[derive(Debug)]
 pub struct File {
     pub path: PathBuf,
+    /// Columns and rows.
+    pub size: (usize, usize),
     pub precision: Precision,
     pub components: usize,
     pub slices: usize,
@@ -80,7 +86,60 @@ pub fn write_all(folder: &Path) -> Vec<File> {
         let style = Style { supercompress: Supercompress::Zstd, ..Style::default() };
         files.extend(write(folder, "ktx2", &packed(channels, Precision::F16), style));
     }
+    files.extend(write_nets(folder));
     files
+}
+
+/// The control points of a plan, one channel and two, in every storage that a table of them has and
+/// every format that takes it. Rows end at odd bytes.
+fn write_nets(folder: &Path) -> Vec<File> {
+    let mut files = Vec::new();
+    for storage in [Storage::Unorm8, Storage::Unorm16, Storage::F32] {
+        for (channels, size) in [(Channels::EnergyRest, [7, 9]), (Channels::Ratio, [5, 6])] {
+            let net = net(storage, channels, size);
+            let table = net.table(&promise()).unwrap();
+            for extension in FORMATS {
+                let Some(file) = write(folder, extension, &table, Style::default()) else {
+                    continue;
+                };
+                assert_eq!(first_components(&file, channels.count()), stored(&net), "{file:?}");
+                files.push(file);
+            }
+        }
+    }
+    files
+}
+
+/// A net of random control points.
+fn net(storage: Storage, channels: Channels, size: [usize; 2]) -> Approximation {
+    let mut random = Random(20_261_128);
+    let mut points = || (0..size[0] * size[1]).map(|_| random.next() - 0.5).collect::<Vec<f64>>();
+    let numbers = (0..channels.count()).map(|_| storage.store(&points())).collect();
+    let shape = Shape::Spline { x: Along::Layer(3.0), y: Across::Sqrt, size, degree: 3 };
+    let region = Region { least_nov: 0.0, roughness: [0.0, 1.0] };
+    Approximation { lobe: ggx(Masking::HeightCorrelated), region, channels, shape, numbers }
+}
+
+/// What a plan would say of it.
+fn promise() -> Promise {
+    let (tolerance, command) = ("0.004".to_owned(), "splitsum plan".to_owned());
+    Promise { tolerance, f0: [0.0, 1.0], measured_error: (0.003, 1000), command }
+}
+
+/// The numbers of a net, point by point: of codes the fraction of the largest.
+fn stored(net: &Approximation) -> Vec<f64> {
+    let count = net.numbers[0].len();
+    let number = |index: usize, numbers: &Numbers| match numbers {
+        Numbers::Floats(floats) | Numbers::Halves(floats) => f64::from(floats[index]),
+        Numbers::Codes { last, codes, .. } => f64::from(codes[index]) / f64::from(*last),
+    };
+    (0..count).flat_map(|i| net.numbers.iter().map(move |channel| number(i, channel))).collect()
+}
+
+/// The first components of each texel: formats fill up the rest.
+fn first_components(file: &File, count: usize) -> Vec<f64> {
+    let texels = file.values.chunks(file.components);
+    texels.flat_map(|texel| texel[..count].iter().copied()).collect()
 }
 
 /// A table of these channels.
@@ -107,8 +166,11 @@ fn write(folder: &Path, extension: &str, table: &Table, style: Style) -> Option<
     let (layout, precision) = (table.layout(), table.precision());
     let encoding = Encoding::new(format, style.clone(), layout, precision).ok()?;
     let (components, slices) = (encoding.components(), layout.slice_count());
+    let size = (table.x().size(), table.y().size());
     let name = format!(
-        "{precision}_{}_{components}_{slices}_{}_{}.{extension}",
+        "{}x{}_{precision}_{}_{components}_{slices}_{}_{}.{extension}",
+        size.0,
+        size.1,
         layout.channels.len(),
         style.slices,
         style.supercompress
@@ -119,7 +181,7 @@ fn write(folder: &Path, extension: &str, table: &Table, style: Style) -> Option<
     fs::write(&path, bytes.get_ref()).unwrap();
     let values: Vec<f64> =
         (0..slices).flat_map(|slice| values_of(table, slice, components)).collect();
-    let file = File { path, precision, components, slices, style, values };
+    let file = File { path, size, precision, components, slices, style, values };
     let le: Vec<u8> = file.values.iter().flat_map(|value| value.to_le_bytes()).collect();
     fs::write(file.beside("f64"), le).unwrap();
     let mut raw = Cursor::new(Vec::new());
