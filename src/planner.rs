@@ -12,6 +12,7 @@ pub mod fit;
 pub mod model_errors;
 pub mod page;
 pub mod proof;
+pub mod reach;
 pub mod report;
 pub mod samples;
 pub mod search;

@@ -140,7 +140,11 @@ pub fn run(arguments: &PlanArgs) -> Result<()> {
     let outcome = search(&task, &truth);
     let seconds = started.elapsed().as_secs_f64();
     if outcome.choice.is_empty() {
-        let got = format!("{} candidates that miss it", outcome.trials.len());
+        let got = format!(
+            "{} candidates that miss it, the largest of each kind among them (where these miss it \
+             by far, smaller ones are not tried)",
+            outcome.trials.len()
+        );
         let cure = "give a larger tolerance, a smaller range or a larger --nov-min";
         return Err(Error::bad_input("tolerance", "one that a candidate meets", got, cure));
     }

@@ -5,6 +5,7 @@ use super::candidate::{ALONG, Candidate, channels, over_roughness};
 use super::cost::{Cost, Weights};
 use super::domain::{Domain, Piece};
 use super::fit::{Effort, Fit, Multiplier, Problem};
+use super::reach::out_of_reach;
 use super::samples::{BESIDE_THE_LAYER, Sample, Spread, on_grid, samples};
 use super::tolerance::Tolerance;
 use super::truth::Truth;
@@ -96,6 +97,9 @@ pub const FAILS: f64 = 1.001;
 
 /// Candidates that are tried at a time.
 const AT_A_TIME: usize = 16;
+
+/// Turns after which the largest candidates are tried: most plans are found before.
+const TURNS: usize = 4;
 
 /// The cheapest choice that meets the tolerance; none among the candidates is an empty choice.
 pub fn search(task: &Task, truth: &Truth) -> Outcome {
@@ -260,7 +264,15 @@ impl Search<'_> {
         let mut queue: Vec<&[Candidate]> = candidates.chunk_by(is_same).collect();
         queue.sort_by(|a, b| cost(&a[0]).total_cmp(&cost(&b[0])));
         let mut best: Option<(Choice, f64)> = None;
-        for batch in queue.chunks(AT_A_TIME) {
+        for (turn, batch) in queue.chunks(AT_A_TIME).enumerate() {
+            // A choice with a cost below a limit needs proofs of all that costs less.
+            if turn == TURNS && best.is_none() && limit.is_none() {
+                let largest = out_of_reach(self.task, self.truth, self.truth_error);
+                if let Some(largest) = largest {
+                    trials.extend(largest);
+                    return None;
+                }
+            }
             if best.as_ref().is_some_and(|(_, least)| cost(&batch[0][0]) >= *least) {
                 break;
             }
