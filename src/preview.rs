@@ -17,6 +17,7 @@
 pub mod curve;
 #[cfg(feature = "vulkan")]
 mod on_device;
+pub mod planned;
 mod shade;
 
 use crate::backend::{Backend, Progress, cpu};

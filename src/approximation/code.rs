@@ -193,7 +193,7 @@ fn refused(what: &str, expected: &str, got: &str) -> Error {
 }
 
 /// Refuses numbers that do not fit their shape.
-fn check(approximation: &Approximation) -> Result<()> {
+pub fn check(approximation: &Approximation) -> Result<()> {
     let Approximation { region, shape, numbers, channels, .. } = approximation;
     let Region { least_nov, roughness: [low, high] } = *region;
     let inside = |value: f64| (0.0..=1.0).contains(&value);

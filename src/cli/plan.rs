@@ -3,7 +3,7 @@
 mod outputs;
 mod scenes;
 
-pub use outputs::{carry_out, is_plan};
+pub use outputs::{carry_out, is_plan, read_plan};
 
 use super::choices;
 use super::lookup::language_of;
@@ -21,7 +21,7 @@ use crate::planner::report::{Report, SceneText};
 use crate::planner::search::{Task, search};
 use crate::planner::tolerance::Tolerance;
 use crate::planner::truth::Truth;
-use outputs::{output_of, read_plan, table_format, write_output};
+use outputs::{output_of, table_format, write_output};
 use scenes::{domain, scenes};
 use std::io::Write;
 use std::time::Instant;

@@ -1,5 +1,7 @@
 //! `splitsum preview`
 
+mod planned;
+
 use super::choices;
 use super::device_args::DeviceArgs;
 use super::progress::Progress;
@@ -19,6 +21,13 @@ pub struct PreviewArgs {
         value_parser = choices::of::<Light>()
     )]
     scene: Light,
+    /// Show the materials of a plan in a furnace instead, on the CPU, since the lookup is the
+    /// plan's own: E(F0) by that lookup, by the integral, their difference times 100, at either end
+    /// of the range of F0; columns from smooth to rough
+    #[arg(
+        long, value_name = "PLAN.toml", conflicts_with_all = ["scene", "backend", "device"]
+    )]
+    plan: Option<String>,
     /// Pixels along the edge of a sphere's cell, 16 to 512
     #[arg(
         long, value_name = "N", default_value_t = 96,
@@ -49,6 +58,9 @@ choice!(Light, "scene", {
 
 pub fn run(arguments: &PreviewArgs) -> Result<()> {
     let (name, size) = (&arguments.output, usize::from(arguments.size));
+    if let Some(plan) = &arguments.plan {
+        return planned::run(plan, name, size);
+    }
     output::check_picture(name)?;
     // A pixel of a row has its light, and of the picture its colour, twice while it is encoded; the
     // most scenes have six rows.

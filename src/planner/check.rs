@@ -3,6 +3,7 @@
 
 use super::candidate::{self, ALONG, Candidate};
 use super::cost::Cost;
+use super::domain::Piece;
 use super::file::{Chosen, PlanFile, Rejected};
 use super::fit::Multiplier;
 use super::proof::Claim;
@@ -49,7 +50,7 @@ fn failed<T>(text: String) -> Result<T> {
 /// [`Error::BadInput`] for a file that makes no sense.
 pub fn check(file: &PlanFile) -> Result<Checked> {
     let (task, lobe) = file.task()?;
-    covers(file, &task)?;
+    task.domain.pieces.iter().try_for_each(|piece| part_for(file, piece).map(drop))?;
     let truth = Truth::new(lobe);
     let worst = file
         .choice
@@ -72,20 +73,18 @@ pub fn check(file: &PlanFile) -> Result<Checked> {
     })
 }
 
-/// Whether each piece lies in a region of the choice.
-fn covers(file: &PlanFile, task: &Task) -> Result<()> {
+/// The number of the part of the choice in whose region a piece lies.
+///
+/// # Errors
+///
+/// [`Error::CheckFailed`] where there is none.
+pub fn part_for(file: &PlanFile, piece: &Piece) -> Result<usize> {
     let within = |inner: [f64; 2], outer: [f64; 2]| outer[0] <= inner[0] && inner[1] <= outer[1];
-    for piece in &task.domain.pieces {
-        let is_covered = file
-            .choice
-            .iter()
-            .any(|chosen| within(piece.roughness, chosen.roughness) && within(piece.f0, chosen.f0));
-        if !is_covered {
-            let [low, high] = piece.roughness;
-            return failed(format!("nothing in the choice is for roughness {low} to {high}"));
-        }
-    }
-    Ok(())
+    let holds =
+        |chosen: &Chosen| within(piece.roughness, chosen.roughness) && within(piece.f0, chosen.f0);
+    let [low, high] = piece.roughness;
+    let none = || failed(format!("nothing in the choice is for roughness {low} to {high}"));
+    file.choice.iter().position(holds).map_or_else(none, Ok)
 }
 
 /// The largest error of a part of the choice.
