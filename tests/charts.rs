@@ -14,10 +14,12 @@ use splitsum::compare::draw::{Drawing, Shape};
 use splitsum::compare::sampling::Sampler;
 use splitsum::compare::study::Machine;
 use splitsum::compare::study::lookup::Reading;
+use splitsum::compare::study::lookup::layer::{Net, Where};
 use splitsum::compare::study::size::Cost;
 use splitsum::compare::study::speed::{Speed, Who};
 use splitsum::compare::study::stability::{Family, Stability};
 use splitsum::compare::technique::Technique;
+use splitsum::table::precision::Precision;
 use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
@@ -41,12 +43,13 @@ fn all() -> Vec<(&'static str, Drawing)> {
     let stability: Stability = part(STABILITY, "stability");
     let lobe = speed.plan.lobe;
     let readings: Vec<Reading> = part(SPEED, "lookup");
+    let nets: Vec<Net> = part(SPEED, "nets");
     let costs: Vec<Cost> = part(SPEED, "size");
     let maps = |family| stability_chart(&stability, family, "Maps", &machine).unwrap();
     vec![
         ("time", speed_chart(&speed, &machine, Against::Time)),
         ("evaluations", speed_chart(&speed, &machine, Against::Evaluations)),
-        ("lookup", lookup::chart(&readings, lobe, &machine)),
+        ("lookup", lookup::chart(&readings, &nets, lobe, &machine)),
         ("size", size::chart(&costs, lobe, &machine)),
         ("formulas", maps(Family::Formulas)),
         ("methods", maps(Family::Methods)),
@@ -124,6 +127,25 @@ fn every_method_has_its_mark_in_its_place() {
         let named = |technique: Technique| measured.iter().any(|m| m.technique == technique);
         assert!(Technique::all().all(named), "a method is missing from the stored measurements");
     }
+}
+
+#[test]
+fn every_table_and_net_has_its_marks() {
+    let (speed, machine) = speed();
+    let readings: Vec<Reading> = part(SPEED, "lookup");
+    let nets: Vec<Net> = part(SPEED, "nets");
+    let marks = marks(&lookup::chart(&readings, &nets, speed.plan.lobe, &machine));
+    let of = |words: &str| marks.iter().filter(|(title, _)| title.contains(words)).count();
+    // Each in every panel, but nets in those of their own domain: the mean is one over everything.
+    for net in &nets {
+        let panels = if net.domain == Where::Everywhere { 2 } else { 1 };
+        assert_eq!(of(&format!("{} bytes, {}: ", net.bytes, net.candidate)), panels, "{net:?}");
+    }
+    assert!(nets.len() > 2);
+    let tables = readings.iter().filter(|reading| reading.precision != Precision::F32).count();
+    assert_eq!(of(" x "), 3 * tables);
+    // Over T there are as many as over any other axes.
+    assert_eq!(of(", T,edges, "), of(", nov,sqrt,edges, "));
 }
 
 #[test]
@@ -236,7 +258,7 @@ fn the_commands_measure_draw_and_draw_again() {
     let written = names(folder.path());
     let expected = "evaluations.png evaluations.svg formulas.png formulas.svg lookup.csv \
                     lookup.png lookup.svg methods.png \
-                    methods.svg size.csv size.png size.svg speed.csv speed.json speed.md \
+                    methods.svg nets.csv size.csv size.png size.svg speed.csv speed.json speed.md \
                     speed.png speed.svg stability.json \
                     stability.md storage.png storage.svg";
     assert_eq!(written.join(" "), expected);

@@ -9,7 +9,8 @@ use crate::cli::{output, print};
 use crate::compare::chart::lookup as lookup_chart;
 use crate::compare::chart::size as size_chart;
 use crate::compare::chart::speed::{Against, chart};
-use crate::compare::study::lookup::Reading;
+use crate::compare::study::lookup::layer::{self, LAYER, Net, TOLERANCES, Where};
+use crate::compare::study::lookup::{Axes, Reading};
 use crate::compare::study::size::Cost;
 use crate::compare::study::speed::{Plan, Speed};
 use crate::compare::study::worst::PRACTICAL;
@@ -35,15 +36,19 @@ pub struct SpeedArgs {
 struct Measured {
     speed: Speed,
     lookup: Vec<Reading>,
+    /// Studies of earlier versions have none.
+    #[serde(default)]
+    nets: Vec<Net>,
     size: Vec<Cost>,
 }
 
 /// The files, without the folder.
-const FILES: [&str; 13] = [
+const FILES: [&str; 14] = [
     "speed.json",
     "speed.md",
     "speed.csv",
     "lookup.csv",
+    "nets.csv",
     "size.csv",
     "speed.svg",
     "speed.png",
@@ -63,15 +68,16 @@ pub fn run(arguments: &SpeedArgs) -> Result<()> {
     let folder = study.folder(&FILES)?;
     let path = format!("{folder}/speed.json");
     let saved = study.saved(&path, |devices, progress| measure(plan, devices, progress))?;
-    let Saved { machine, measured: Measured { speed, lookup, size }, .. } = &saved;
+    let Saved { machine, measured: Measured { speed, lookup, nets, size }, .. } = &saved;
     let lobe = speed.plan.lobe;
     write_drawing(&folder, "speed", &chart(speed, machine, Against::Time))?;
     write_drawing(&folder, "evaluations", &chart(speed, machine, Against::Evaluations))?;
-    write_drawing(&folder, "lookup", &lookup_chart::chart(lookup, lobe, machine))?;
+    write_drawing(&folder, "lookup", &lookup_chart::chart(lookup, nets, lobe, machine))?;
     write_drawing(&folder, "size", &size_chart::chart(size, lobe, machine))?;
     let tables = [
         ("speed", speed.to_csv()),
         ("lookup", lookup::to_csv(lookup)),
+        ("nets", layer::to_csv(nets)),
         ("size", size::to_csv(size)),
     ];
     for (name, csv) in tables {
@@ -83,7 +89,7 @@ pub fn run(arguments: &SpeedArgs) -> Result<()> {
 
 /// The pictures, each with what a reader would read off it.
 fn page(
-    Saved { machine, measured: Measured { speed, lookup, size }, .. }: &Saved<Measured>,
+    Saved { machine, measured: Measured { speed, lookup, nets, size }, .. }: &Saved<Measured>,
 ) -> String {
     let picture = |title: &str, name: &str| format!("\n## {title}\n\n![{title}]({name}.png)\n\n");
     let devices: String = machine
@@ -99,7 +105,8 @@ fn page(
     text += &(picture("Error against time", "speed") + &summary(speed, machine));
     text += &picture("Error against evaluations", "evaluations");
     text += &(picture("What size a table needs", "lookup")
-        + &sizes_needed(lookup, speed.plan.lobe.into()));
+        + &sizes_needed(lookup, speed.plan.lobe.into())
+        + &nets_needed(nets));
     text += &(picture("Where a device begins to pay", "size") + &devices_that_pay(size));
     text
 }
@@ -117,7 +124,7 @@ fn sizes_needed(readings: &[Reading], lobe: Microfacet) -> String {
         PRACTICAL.nov,
         " --- |".repeat(ERRORS.len())
     );
-    for axes in lookup::AXES {
+    for axes in lookup::AXES.into_iter().chain([LAYER]) {
         let cell = |error| match lookup::smallest(readings, axes, error) {
             Some(r) => format!(
                 " {} ({} x {}, {}) |",
@@ -128,7 +135,7 @@ fn sizes_needed(readings: &[Reading], lobe: Microfacet) -> String {
             ),
             None => " none |".into(),
         };
-        text += &format!("| `--x {} --y {}` |{}\n", axes.0, axes.1, ERRORS.map(cell).concat());
+        text += &format!("| {} |{}\n", name_of(axes), ERRORS.map(cell).concat());
     }
     text + &errors_everywhere(readings) + &corner(lobe)
 }
@@ -145,10 +152,44 @@ fn errors_everywhere(readings: &[Reading]) -> String {
          over that domain\n\n\
          | axes |{heads}\n| --- |{rule}\n"
     );
-    for axes in lookup::AXES {
+    for axes in lookup::AXES.into_iter().chain([LAYER]) {
         let cells: String =
-            half(axes).map(|r| format!(" {:.3} / {:.4} |", r.everywhere, r.practical)).collect();
-        text += &format!("| `--x {} --y {}` |{cells}\n", axes.0, axes.1);
+            half(axes).map(|r| format!(" {:.4} / {:.4} |", r.everywhere, r.practical)).collect();
+        text += &format!("| {} |{cells}\n", name_of(axes));
+    }
+    text
+}
+
+/// The axes of a table as flags of `bake`, or as words where it has none.
+fn name_of(axes: Axes) -> String {
+    match axes {
+        LAYER => "E and R over T and roughness, edges".into(),
+        (x, y) => format!("`--x {x} --y {y}`"),
+    }
+}
+
+/// The nets that the planner fits, as Markdown.
+fn nets_needed(nets: &[Net]) -> String {
+    if nets.is_empty() {
+        return String::new();
+    }
+    let mut text = String::from(
+        "\nT is √(n·v (1 + 3α)/(n·v + 3α)), and E and R are those of docs/plan.md: both resolve \
+         the corner. Their codes have an offset and a scale for each channel. Splines of them \
+         whose numbers `splitsum plan` fits, judged by the same search\n\n\
+         | tolerance | domain | bytes | largest error | root mean square | spline |\n\
+         | --- | --- | --- | --- | --- | --- |\n",
+    );
+    for Net { candidate, domain, tolerance, bytes, largest, rms } in nets {
+        let domain = match domain {
+            Where::Everywhere => "everything".into(),
+            Where::Practical => {
+                format!("roughness from {}, n·v from {}", PRACTICAL.roughness, PRACTICAL.nov)
+            }
+        };
+        text += &format!(
+            "| {tolerance:e} | {domain} | {bytes} | {largest:.2e} | {rms:.2e} | `{candidate}` |\n"
+        );
     }
     text
 }
@@ -192,9 +233,11 @@ fn measure(plan: Plan, devices: &Devices, progress: &Progress) -> Result<Measure
     let part = |from: f64, to: f64| move |share: f64| progress.reach(from + (to - from) * share);
     let speed = speed::measure(plan, &devices.open()?, &part(0.0, 0.5))?;
     let lookup = lookup::measure(lobe, if quick { 64 } else { 256 }, &part(0.5, 0.6))?;
+    let tolerances = if quick { &TOLERANCES[..2] } else { &TOLERANCES };
+    let nets = layer::nets(lobe, tolerances, &part(0.6, 0.7))?;
     let (largest, patience) = if quick { (256, 1.0) } else { (4096, 30.0) };
-    let size = size::measure(lobe, largest, patience, &devices.options, &part(0.6, 1.0))?;
-    Ok(Measured { speed, lookup, size })
+    let size = size::measure(lobe, largest, patience, &devices.options, &part(0.7, 1.0))?;
+    Ok(Measured { speed, lookup, nets, size })
 }
 
 /// Errors at which methods are compared.

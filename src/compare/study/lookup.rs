@@ -1,7 +1,9 @@
 //! The error of bilinear lookup, as a renderer reads a table: by size, axes and
 //! storage.
 
-use super::worst::{FULL, PRACTICAL, Search, parameter, rule, seen};
+pub mod layer;
+
+use super::worst::{FULL, PRACTICAL, Read, Search, parameter, rule, seen};
 use super::{Share, stored};
 use crate::backend::cpu;
 use crate::brdf::Microfacet;
@@ -13,6 +15,7 @@ use crate::table::axis::{Axis, AxisSpec};
 use crate::table::grid::Grid;
 use crate::table::precision::Precision;
 use crate::units::{Alpha, PerceptualRoughness};
+use layer::Judge;
 use serde::{Deserialize, Serialize};
 
 /// Places of the mean error: spread evenly over n·v and perceptual roughness (the points of R2).
@@ -103,16 +106,17 @@ impl Lookups {
                 bytes: 2 * precision.bytes() * size * size,
                 everywhere: search.largest(FULL, &read)?,
                 practical: search.largest(PRACTICAL, &read)?,
-                rms: self.rms(&table)?,
+                rms: self.rms(&y, &read)?,
             })
         };
         precisions.iter().map(reading).collect()
     }
 
-    fn rms(&self, table: &Samples) -> Result<f64> {
+    /// The root of the mean square error of what is read at n·v and the parameter of an axis.
+    fn rms(&self, y: &Axis, read: Read) -> Result<f64> {
         let mut squares = 0.0;
         for (&(mu, roughness), &truth) in self.places.iter().zip(&self.truth) {
-            let error = seen(table.bilinear(mu, parameter(&table.y, roughness)?), truth);
+            let error = seen(read(mu, parameter(y, roughness)?), truth);
             squares += error * error;
         }
         Ok((squares / POINTS as f64).sqrt())
@@ -133,19 +137,29 @@ pub fn practical(
     search.largest(PRACTICAL, &|mu, row| table.bilinear(mu, row)).map(Some)
 }
 
+/// Storages that are compared.
+const STORAGES: [Precision; 4] =
+    [Precision::F32, Precision::F16, Precision::Unorm16, Precision::Unorm8];
+
 /// Every size up to `largest`, with all axes and storages.
 pub fn measure(lobe: Microfacet, largest: usize, share: Share) -> Result<Vec<Reading>> {
     let lookups = Lookups::new(lobe)?;
+    let sizes = || {
+        std::iter::successors(Some(8), |size| Some(2 * size)).take_while(|&size| size <= largest)
+    };
     let mut readings = Vec::new();
     for (done, axes) in AXES.into_iter().enumerate() {
-        for size in std::iter::successors(Some(8), |size| Some(2 * size))
-            .take_while(|&size| size <= largest)
-        {
-            let storages = [Precision::F32, Precision::F16, Precision::Unorm16, Precision::Unorm8];
-            readings.extend(lookups.of(axes, size, &storages)?);
+        for size in sizes() {
+            readings.extend(lookups.of(axes, size, &STORAGES)?);
         }
-        share((done + 1) as f64 / AXES.len() as f64);
+        share((done + 1) as f64 / (AXES.len() + 1) as f64);
     }
+    if let Some(judge) = Judge::new(lobe)? {
+        for size in sizes() {
+            readings.extend(layer::tables(&judge, size, &STORAGES)?);
+        }
+    }
+    share(1.0);
     Ok(readings)
 }
 
