@@ -1,6 +1,7 @@
 //! The cheapest approximation for a scene, and proofs that cheaper ones fail.
 
 pub mod banded;
+pub mod bound;
 pub mod candidate;
 pub mod chebyshev;
 pub mod check;

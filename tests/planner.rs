@@ -265,6 +265,9 @@ fn a_check_finds_one_wrong_number_and_one_wrong_multiplier() {
     plan.rejected.pop();
     refused(&plan, "is not among the rejected");
     let mut plan = good.clone();
+    plan.choice[0].bound.as_mut().unwrap().share -= 1e-6;
+    refused(&plan, "the bound of the error is");
+    let mut plan = good.clone();
     plan.question.pieces[0].roughness[1] = 0.95;
     refused(&plan, "nothing in the choice is for roughness");
     let mut plan = good.clone();

@@ -2,7 +2,7 @@
 
 use crate::brdf::fresnel::schlick_weight;
 use crate::choice::choice;
-use crate::numeric::lanes::Real;
+use crate::numeric::lanes::Number;
 
 /// The channels. F is Schlick's at n·v, F0 + (1 - F0)(1 - n·v)⁵.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,14 +39,15 @@ impl Channels {
     }
 
     /// The factor of each channel in E(F0).
-    pub fn weights<R: Real>(self, nov: R, f0: R) -> [R; 2] {
-        let fresnel = || f0 + f0.complement() * schlick_weight(nov);
+    pub fn weights<R: Number>(self, nov: R, f0: R) -> [R; 2] {
+        let complement = R::from(1.0) - f0;
+        let fresnel = || f0 + complement * schlick_weight(nov);
         match self {
             Channels::Albedo => [R::from(1.0), R::from(0.0)],
             Channels::Ratio => [fresnel(), R::from(0.0)],
-            Channels::EnergyRest => [fresnel(), f0.complement()],
+            Channels::EnergyRest => [fresnel(), complement],
             Channels::ScaleBias => [f0, R::from(1.0)],
-            Channels::BiasEnergy => [f0.complement(), f0],
+            Channels::BiasEnergy => [complement, f0],
         }
     }
 }

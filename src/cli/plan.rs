@@ -87,7 +87,7 @@ pub struct PlanArgs {
     /// for several
     #[arg(long, value_name = "FILE", help_heading = "The output")]
     code: Vec<String>,
-    /// Write the control points as they are: .exr, .png, .ktx2, .dds, .npy, .raw, .js, .ts or .txt
+    /// Write the control points as they are: .png, .ktx2, .dds, .npy, .raw, .js, .ts or .txt
     #[arg(long, value_name = "FILE", help_heading = "The output")]
     table: Vec<String>,
     /// What begins the names in code
@@ -271,6 +271,9 @@ fn run_check(path: &str, json: bool) -> Result<()> {
             worst.f0,
             chosen.candidate
         ));
+        if let Some(bound) = worst.bound {
+            lines.push(format!("bound     {}", bound.text(chosen.roughness[0])));
+        }
     }
     lines.push(format!(
         "cheaper   {proved} candidates fail, by {multipliers} points and multipliers; of \

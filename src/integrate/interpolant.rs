@@ -10,6 +10,8 @@
 //! first the rest beyond a mirror's: B - (1-μ)⁵ E for Schlick's. The rests vanish as α → 0; the
 //! integrals themselves change over μ ~ 1, which s does not resolve at small α.
 
+pub mod norms;
+
 use super::light_directions::LightDirectionRule;
 use super::{Field, Integrals};
 use crate::brdf::fresnel::Basis;

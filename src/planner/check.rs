@@ -1,6 +1,7 @@
 //! Verifies a plan from scratch: its numbers by the reference rule at points of their own, and
 //! every proof.
 
+use super::bound::bound;
 use super::candidate::{self, ALONG, Candidate};
 use super::cost::Cost;
 use super::domain::Piece;
@@ -35,6 +36,9 @@ const IN_A_SPAN: Spread = Spread::Even(9);
 
 /// Points of a shape without spans.
 const IN_ALL: [Spread; 2] = [Spread::Even(211), Spread::Even(53)];
+
+/// Bounds are the same to the last digits that a file keeps.
+const ROUNDED: f64 = 1.0 + 1e-9;
 
 /// A failure of the check.
 fn failed<T>(text: String) -> Result<T> {
@@ -99,7 +103,17 @@ fn measured(chosen: &Chosen, task: &Task, truth: &Truth) -> Result<Worst> {
             worst.share
         ));
     }
-    Ok(worst)
+    let Some(stated) = chosen.bound else { return Ok(worst) };
+    match bound(&approximation, chosen.f0, task.tolerance, chosen.worst, truth) {
+        Some(own) if own.share <= stated.share.min(1.0) * ROUNDED && own.from <= stated.from => {
+            Ok(Worst { bound: Some(own), ..worst })
+        }
+        own => failed(format!(
+            "the bound of the error is {:.4} of the tolerance, not {:.4}",
+            own.map_or(f64::INFINITY, |bound| bound.share),
+            stated.share
+        )),
+    }
 }
 
 /// The largest error of an approximation at points of their own, by the reference rule.

@@ -1,5 +1,6 @@
 //! A plan as a file: the question, the answer with its numbers, and why nothing cheaper is taken.
 
+use super::bound::Bound;
 use super::candidate::Candidate;
 use super::cost::{Cost, Weights};
 use super::domain::{Domain, Piece};
@@ -98,6 +99,9 @@ pub struct Chosen {
     pub place: [f64; 3],
     /// The number of points where it was measured.
     pub points: usize,
+    /// What no lookup exceeds; none below the roughness where the truth is interpolated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bound: Option<Bound>,
     /// BLAKE3 of the numbers: see [`Approximation::blake3`].
     pub blake3: String,
     /// The numbers of each channel.
@@ -172,6 +176,7 @@ impl Chosen {
             error: worst.error,
             place: [worst.nov, worst.roughness, worst.f0],
             points: worst.points,
+            bound: worst.bound,
             blake3: approximation.blake3(),
             channels: approximation.numbers.iter().map(text).collect(),
         }
@@ -364,7 +369,10 @@ fn rejected(task: &Task, truth: &Truth, outcome: &Outcome) -> Result<Vec<Rejecte
                     text.proof = proof.iter().map(Multiplier::array).collect();
                 }
             },
-            Verdict::NotFound(worst) | Verdict::Passes(worst) => text.found = Some(worst.share),
+            Verdict::NotFound(worst) | Verdict::Passes(worst) => {
+                let bound = worst.bound.map_or(0.0, |bound| bound.share);
+                text.found = Some(worst.share.max(bound));
+            }
         }
         Ok(text)
     };

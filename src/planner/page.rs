@@ -68,6 +68,11 @@ fn ship(report: &Report) -> Result<String> {
         escape(&tolerance.to_string()),
         whole(points)
     );
+    let bounds = plan.choice.iter().map(|chosen| (chosen.bound, chosen.roughness[0]));
+    let bounds = bounds.filter_map(|(bound, smoothest)| Some((bound?, smoothest)));
+    if let Some((bound, smoothest)) = bounds.max_by(|a, b| a.0.share.total_cmp(&b.0.share)) {
+        text += &format!("<p>Bound, {}.</p>\n", escape(&bound.text(smoothest)));
+    }
     text += &format!("<p>Cheaper ones: {}.</p>\n", escape(&report.cheaper()));
     text += &format!("<pre><code>{}</code></pre>\n", escape(&plan.command));
     text += &format!(

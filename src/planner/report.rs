@@ -1,5 +1,6 @@
 //! A plan in lines for people.
 
+use super::bound::Bound;
 use super::candidate::Candidate;
 use super::engines::Engine;
 use super::file::PlanFile;
@@ -74,6 +75,18 @@ impl SceneText {
             lobes: scene.lobes.iter().map(lobe).collect(),
             notes: scene.notes.clone(),
         }
+    }
+}
+
+impl Bound {
+    /// What it says, of a choice from this roughness on.
+    pub fn text(&self, smoothest: f64) -> String {
+        let share = (1e4 * self.share).ceil() * 1e-4;
+        let from = match self.from > smoothest {
+            true => format!(" from roughness {:.4} on", self.from),
+            false => String::new(),
+        };
+        format!("proved: no lookup{from} errs by more than {share:.4} of the tolerance")
     }
 }
 
@@ -184,6 +197,9 @@ impl Report {
                 chosen.worst,
                 chosen.points
             );
+            if let Some(bound) = chosen.bound {
+                let _ = writeln!(lines, "          {}", bound.text(chosen.roughness[0]));
+            }
         }
         let cost = self.plan.cost()?;
         let _ = writeln!(

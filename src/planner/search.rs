@@ -1,6 +1,7 @@
 //! The search: candidates from the cheapest on, each proved to fail, found to fail, or verified,
 //! until one passes.
 
+use super::bound::bound;
 use super::candidate::{ALONG, Candidate, channels, over_roughness};
 use super::cost::{Cost, Weights};
 use super::domain::{Domain, Piece};
@@ -88,8 +89,8 @@ const BESIDE: [Spread; 2] = [Spread::Crowded(17), Spread::Crowded(13)];
 /// Steps of a fit.
 const EFFORT: Effort = Effort { steps: 24, fails: FAILS };
 
-/// An error over its tolerance that passes. Between the points where it is measured an error is
-/// larger than at them by 1.4 % at the most.
+/// An error over its tolerance that passes where it is only measured: below roughness 0.001, where
+/// nothing bounds it. Between the points it is larger than at them by 1.4 % at the most.
 pub const PASSES: f64 = 0.98;
 
 /// A lower bound of the error over its tolerance that fails a candidate: proofs are rounded.
@@ -335,11 +336,25 @@ impl Search<'_> {
             .map(|candidate| {
                 let approximation = candidate.with(&fit, self.truth.lobe(), region);
                 let worst = verify::measure(&approximation, f0, tolerance, &places);
-                let passes = worst.share <= PASSES - self.truth_error;
-                let verdict =
-                    if passes { Verdict::Passes(worst) } else { Verdict::NotFound(worst) };
+                let verdict = self.judged(&approximation, f0, worst);
+                let passes = matches!(verdict, Verdict::Passes(_));
                 (trial(candidate, verdict), passes.then_some(approximation))
             })
             .collect()
+    }
+
+    /// Whether numbers with this error at points meet the tolerance anywhere.
+    fn judged(&self, approximation: &Approximation, f0: [f64; 2], worst: Worst) -> Verdict {
+        let limit = 1.0 - self.truth_error;
+        if worst.share > limit {
+            return Verdict::NotFound(worst);
+        }
+        let bound = bound(approximation, f0, self.task.tolerance, worst.share, self.truth);
+        let [smoothest, _] = approximation.region.roughness;
+        let is_whole = bound.is_some_and(|bound| bound.from <= smoothest);
+        let is_bounded = bound.is_none_or(|bound| bound.share <= limit);
+        let is_within = is_whole || worst.share <= PASSES - self.truth_error;
+        let worst = Worst { bound, ..worst };
+        if is_bounded && is_within { Verdict::Passes(worst) } else { Verdict::NotFound(worst) }
     }
 }

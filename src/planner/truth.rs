@@ -6,6 +6,7 @@ use crate::approximation::{Along, Region};
 use crate::backend::cpu::{Baker, bake_points};
 use crate::brdf::Microfacet;
 use crate::brdf::fresnel::Schlick;
+use crate::integrate::interpolant::norms::Norms;
 use crate::integrate::interpolant::{Interpolant, InterpolantRule};
 use crate::integrate::rule::{Method, Rule};
 use crate::integrate::rules::{D10240, L4608, REFERENCE, S2304};
@@ -13,6 +14,7 @@ use crate::integrate::{Integrand, ScaleBias};
 use crate::numeric::lanes::F64x8;
 use crate::units::alpha_of;
 use rayon::prelude::*;
+use std::sync::OnceLock;
 
 /// E and R at a point: the albedo at F0 = 1, and what B has beyond (1 - n·v)⁵ E.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,6 +38,7 @@ pub struct Truth {
     lobe: Microfacet,
     rule: InterpolantRule,
     interpolant: Interpolant<2>,
+    norms: OnceLock<[Norms; 2]>,
     /// For what the interpolant does not cover.
     fine: Baker,
     /// The error that the interpolant's rule promises; 0 of lobes that it is not made for.
@@ -57,12 +60,18 @@ impl Truth {
         let integrals = bake_points(lobe, &rule.points(), fine_rule(lobe));
         let interpolant = rule.fit(Schlick, &integrals);
         let promised = if S2304.applies_to(lobe) { S2304.bound(lobe) } else { 0.0 };
-        Truth { lobe, rule, interpolant, fine: Baker::new(lobe, fine_rule(lobe)), promised }
+        let (norms, fine) = (OnceLock::new(), Baker::new(lobe, fine_rule(lobe)));
+        Truth { lobe, rule, interpolant, norms, fine, promised }
     }
 
     /// The lobe.
     pub fn lobe(&self) -> Microfacet {
         self.lobe
+    }
+
+    /// How large the interpolant's E and R and their derivatives are.
+    pub fn norms(&self) -> &[Norms; 2] {
+        self.norms.get_or_init(|| self.interpolant.norms())
     }
 
     /// E and B at these n·v of each perceptual roughness, one after the other.

@@ -1,5 +1,6 @@
 //! What a lookup errs by, in the arithmetic of a shader, at points that it was not fitted to.
 
+use super::bound::Bound;
 use super::samples::{BESIDE_THE_LAYER, Sample, Spread, on_grid, samples};
 use super::tolerance::Tolerance;
 use super::truth::Truth;
@@ -22,6 +23,8 @@ pub struct Worst {
     pub f0: f64,
     /// The points that were measured.
     pub points: usize,
+    /// What no point exceeds, where that was worked out.
+    pub bound: Option<Bound>,
 }
 
 /// Points in each span of a spline, along either axis.
@@ -58,7 +61,15 @@ pub fn measure(
     tolerance: Tolerance,
     points: &[Sample],
 ) -> Worst {
-    let none = Worst { share: 0.0, error: 0.0, nov: 1.0, roughness: 1.0, f0: f0[0], points: 0 };
+    let none = Worst {
+        share: 0.0,
+        error: 0.0,
+        nov: 1.0,
+        roughness: 1.0,
+        f0: f0[0],
+        points: 0,
+        bound: None,
+    };
     let of_chunk = |chunk: &[Sample]| {
         let last = chunk.len() - 1;
         let nov = F32x16::gather(|i| chunk[i.min(last)].nov);
@@ -74,7 +85,7 @@ pub fn measure(
                 if share.is_nan() || share > worst.share {
                     let share = if share.is_nan() { f64::INFINITY } else { share };
                     let Sample { nov, roughness, .. } = *sample;
-                    worst = Worst { share, error, nov, roughness, f0, points: 0 };
+                    worst = Worst { share, error, nov, roughness, f0, ..none };
                 }
             }
         }

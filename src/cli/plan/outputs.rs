@@ -10,6 +10,7 @@ use crate::format::{Format, encode};
 use crate::lookup::{Language, check_name};
 use crate::planner::file::{Output, PlanFile};
 use crate::planner::report::range;
+use crate::table::precision::Precision;
 use std::io::{Read, Write};
 use std::path::Path;
 
@@ -36,14 +37,19 @@ pub fn write_output(plan: &PlanFile, name: &str, prefix: &str) -> Result<()> {
     output::write(name, &encode(&table, table_format(name)?)?)
 }
 
-/// The format of control points with this name; code is written by --code.
+/// The format of control points with this name; code is written by --code, and EXR has no codes.
 pub fn table_format(name: &str) -> Result<&'static Format> {
     let format = Format::of_file(name)?;
-    let is_code = language_of(name).is_ok();
-    if is_code {
-        let expected = ".exr, .png, .ktx2, .dds, .npy, .raw, .js, .ts or .txt";
-        let cure = "write code with --code";
-        return Err(Error::bad_input("table", expected, format!("'{name}'"), cure));
+    let refused = |cure: &str| {
+        let expected = ".png, .ktx2, .dds, .npy, .raw, .js, .ts or .txt";
+        Err(Error::bad_input("table", expected, format!("'{name}'"), cure))
+    };
+    if language_of(name).is_ok() {
+        return refused("write code with --code");
+    }
+    // Control points are codes of 8 or 16 bits.
+    if !format.precisions().contains(&Precision::Unorm16) {
+        return refused("name a format that stores whole numbers");
     }
     Ok(format)
 }

@@ -35,8 +35,9 @@ pub fn section(report: &Report) -> Result<String> {
     let nearly = |entry: &Rejected| entry.found.is_some_and(|found| found <= 1.0);
     if all.iter().any(nearly) {
         text += &format!(
-            "<p class=\"dim\">Numbers pass where the error that was measured is at most {PASSES} \
-             of the tolerance: between the points it may be a little larger.</p>\n"
+            "<p class=\"dim\">Numbers pass where the bound of their error is within the tolerance; \
+             below roughness 0.001, where nothing bounds it, where the error that was measured is \
+             at most {PASSES} of it.</p>\n"
         );
     }
     let mut order: Vec<&Rejected> = all.iter().collect();
