@@ -37,6 +37,8 @@ struct Row {
     bytes: usize,
     numbers: usize,
     error: f64,
+    /// The largest bound over the tolerance; infinite where there is none.
+    bound: f64,
     seconds: f64,
     engines: Vec<f64>,
 }
@@ -82,6 +84,11 @@ fn row(domain: Domain, truth: &Truth) -> Result<Row> {
         by_reference(approximation, f0(index), tolerance, truth).error.abs()
     });
     let error = errors.fold(0.0, f64::max);
+    let bounds = choice.iter().map(|(approximation, worst)| match worst.bound {
+        Some(bound) if bound.from <= approximation.region.roughness[0] => bound.share,
+        _ => f64::INFINITY,
+    });
+    let bound = bounds.fold(0.0, f64::max);
     let is_line = domain.is_constant() && choice.len() == domain.pieces.len();
     Ok(Row {
         pieces: domain.pieces.len(),
@@ -89,6 +96,7 @@ fn row(domain: Domain, truth: &Truth) -> Result<Row> {
         bytes: cost.bytes,
         numbers: choice.iter().flat_map(|one| &one.0.numbers).map(|numbers| numbers.len()).sum(),
         error,
+        bound,
         seconds,
         engines: engines(&domain, tolerance, truth)?.iter().map(|one| one.error.abs()).collect(),
         domain,
@@ -115,6 +123,10 @@ fn print(entries: &[Entry], rows: &[Row], known: &[(usize, usize)]) {
     println!("| bytes, median | {} |", bytes[bytes.len() / 2]);
     println!("| bytes, largest | {} |", bytes.last().unwrap_or(&0));
     println!("| largest error | {:.2e} |", largest(&|row| row.error));
+    let is_proved = |row: &Row| row.bound.is_finite();
+    let bounded = largest(&|row| if is_proved(row) { row.bound } else { 0.0 });
+    println!("| largest bound that is proved | {bounded:.4} of the tolerance |");
+    println!("| scenes whose whole domain it holds for | {:.0} % |", share(&is_proved));
     println!("| scenes that need no table | {:.0} % |", share(&|row| row.choice == "polynomials"));
     println!("| time of a plan, largest | {:.0} ms |\n", 1e3 * largest(&|row| row.seconds));
     let names = ["three.js", "Bevy", "Unreal", "Filament", "HDRP's axes"];

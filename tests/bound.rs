@@ -34,7 +34,7 @@ fn fitted(
     let points = samples(&TRUTH, &region, &candidate.shape, spread);
     let Candidate { channels, shape, counts, .. } = *candidate;
     let problem = Problem { region, f0, tolerance, channels, shape, counts, samples: &points };
-    let fit = problem.fit(Effort { steps: 12, fails: 1e9 }).unwrap();
+    let fit = problem.fit(Effort { steps: 12, fails: 1e9, enough: 0.0 }).unwrap();
     candidate.with(&fit, TRUTH.lobe(), region)
 }
 

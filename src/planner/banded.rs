@@ -27,6 +27,18 @@ impl Banded {
         self.rows[row * (self.band + 1) + self.band + column - row] += value;
     }
 
+    /// Adds to the entries of a row from its first column within the band to its own; those of a
+    /// matrix without a band are all of them.
+    #[inline]
+    pub fn add_row(&mut self, row: usize, factor: f64, values: &[f64]) {
+        let first = row.saturating_sub(self.band);
+        let width = self.band + 1;
+        let entries = &mut self.rows[row * width + self.band + first - row..(row + 1) * width];
+        for (entry, value) in entries.iter_mut().zip(&values[first..=row]) {
+            *entry += factor * value;
+        }
+    }
+
     /// Adds `share` of the largest entry to the diagonal, so that functions that no point sees stay
     /// at rest.
     pub fn regularise(&mut self, share: f64) {

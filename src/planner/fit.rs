@@ -88,7 +88,12 @@ pub struct Effort {
     pub steps: usize,
     /// A bound that fails a candidate.
     pub fails: f64,
+    /// An error that needs no improvement.
+    pub enough: f64,
 }
+
+/// The largest error over its bound where a fit can be hardly better.
+const NEAR: f64 = 1.005;
 
 impl Problem<'_> {
     /// Fits the numbers. None where the system has no solution in f64.
@@ -121,9 +126,10 @@ impl Problem<'_> {
                     best.proof = self.multipliers(&rows, ends, &weights, &errors);
                 }
             }
-            let is_decided = best.bound > effort.fails;
+            let is_best = best.error <= NEAR * best.bound;
+            let is_decided = best.bound > effort.fails || best.error <= effort.enough || is_best;
             fit = Some(best);
-            if is_decided || largest == 0.0 {
+            if is_decided {
                 break;
             }
             weights.iter_mut().zip(&errors).for_each(|(weight, error)| *weight *= error.abs());

@@ -67,10 +67,10 @@ fn far(
     let problem = Problem { region, f0, tolerance, channels, shape, counts, samples: &points };
     let fails = FAR + truth_error;
     // Numbers that meet the tolerance are mostly found at once.
-    if problem.fit(Effort { steps: 1, fails })?.error <= 1.0 {
+    if problem.fit(Effort { steps: 1, fails, enough: 1.0 })?.error <= 1.0 {
         return None;
     }
-    problem.fit(Effort { steps: STEPS, fails }).filter(|fit| fit.bound > fails)
+    problem.fit(Effort { steps: STEPS, fails, enough: 1.0 }).filter(|fit| fit.bound > fails)
 }
 
 /// Those with the most numbers of each kind, in their order.

@@ -56,6 +56,13 @@ pub struct Trial {
     pub verdict: Verdict,
 }
 
+impl Trial {
+    fn new(candidate: &Candidate, region: Region, f0: [f64; 2], verdict: Verdict) -> Self {
+        let cost = Cost::of(candidate, &region);
+        Trial { candidate: *candidate, region, f0, cost, verdict }
+    }
+}
+
 /// What was found.
 #[derive(Clone, Debug)]
 pub struct Outcome {
@@ -87,7 +94,10 @@ const IN_A_SPAN: [Spread; 2] = [Spread::Crowded(6); 2];
 const BESIDE: [Spread; 2] = [Spread::Crowded(17), Spread::Crowded(13)];
 
 /// Steps of a fit.
-const EFFORT: Effort = Effort { steps: 24, fails: FAILS };
+const STEPS: usize = 24;
+
+/// An error over its tolerance that rounding of the numbers leaves within it.
+const ENOUGH: f64 = 0.6;
 
 /// An error over its tolerance that passes where it is only measured: below roughness 0.001, where
 /// nothing bounds it. Between the points it is larger than at them by 1.4 % at the most.
@@ -122,25 +132,37 @@ struct Line<'a> {
     region: Region,
     f0: [f64; 2],
     points: Vec<Sample>,
+    /// Where numbers are verified.
+    places: Vec<Sample>,
     trials: Vec<Trial>,
     best: Option<(Approximation, Worst, Cost)>,
 }
 
 impl Line<'_> {
-    /// Tries candidates that differ in storage, and says whether they are proved to fail.
-    fn attempt(&mut self, same: &[Candidate]) -> bool {
-        let tried = self.search.attempt(same, self.region, self.f0, &self.points);
-        let mut fails = false;
+    /// Whether candidates that differ in storage are proved to fail.
+    fn fails(&mut self, same: &[Candidate]) -> bool {
+        let problem = self.search.problem(&same[0], self.region, self.f0, &self.points);
+        // Numbers that meet the tolerance end it.
+        let Some(fit) = self.search.fit(&problem, 1.0) else { return false };
+        let failing = self.search.failing(same, self.region, self.f0, &fit);
+        let fails = !failing.is_empty();
+        self.trials.extend(failing);
+        fails
+    }
+
+    /// Tries candidates that differ in storage, where they cost less than the best so far.
+    fn attempt(&mut self, same: &[Candidate]) {
+        let cost = |candidate: &Candidate| Cost::of(candidate, &self.region);
+        let cheaper = same.iter().filter(|candidate| !self.is_beaten(cost(candidate)));
+        let same: Vec<Candidate> = cheaper.copied().collect();
+        let places = || self.places.clone();
+        let tried = self.search.attempt(&same, self.region, self.f0, &self.points, places);
         for (trial, approximation) in tried {
-            fails |= matches!(trial.verdict, Verdict::Fails { .. });
-            if let (Verdict::Passes(worst), Some(approximation)) = (&trial.verdict, approximation)
-                && !self.is_beaten(trial.cost)
-            {
+            if let (Verdict::Passes(worst), Some(approximation)) = (&trial.verdict, approximation) {
                 self.best = Some((approximation, *worst, trial.cost));
             }
             self.trials.push(trial);
         }
-        fails
     }
 
     /// Whether the best so far costs no more than any of these.
@@ -218,8 +240,11 @@ impl Search<'_> {
         region: Region,
         f0: [f64; 2],
     ) -> (Option<(Approximation, Worst, Cost)>, Vec<Trial>) {
-        let points = samples(self.truth, &region, &Shape::Polynomial { x }, ALONG_A_LINE);
-        let mut line = Line { search: self, region, f0, points, trials: Vec::new(), best: None };
+        let shape = Shape::Polynomial { x };
+        let points = samples(self.truth, &region, &shape, ALONG_A_LINE);
+        let places = verify::points(self.truth, &region, &shape);
+        let trials = Vec::new();
+        let mut line = Line { search: self, region, f0, points, places, trials, best: None };
         let of = |counts| Candidate::polynomials(channels, x, counts);
         if channels.count() == 1 {
             for count in 1..=MOST_POWERS {
@@ -234,10 +259,9 @@ impl Search<'_> {
         // fail?
         let fewest = [[1, 0], [0, 1]].map(|own: [usize; 2]| {
             let counts = |few| own.map(|own| if own == 1 { few } else { MOST_POWERS });
-            (0..=MOST_POWERS).find(|&few| !line.attempt(&of(counts(few))))
+            (0..=MOST_POWERS).find(|&few| !line.fails(&of(counts(few))))
         });
         let [Some(first), Some(second)] = fewest else { return (None, line.trials) };
-        line.best = None;
         for sum in (first + second).max(1)..=2 * MOST_POWERS {
             if line.is_done(&of([sum, 0])) {
                 break;
@@ -264,6 +288,7 @@ impl Search<'_> {
         let is_same = |a: &Candidate, b: &Candidate| a.shape == b.shape && a.counts == b.counts;
         let mut queue: Vec<&[Candidate]> = candidates.chunk_by(is_same).collect();
         queue.sort_by(|a, b| cost(&a[0]).total_cmp(&cost(&b[0])));
+        let beside = on_grid(self.truth, &region, BESIDE_THE_LAYER, (BESIDE, [1, 1]));
         let mut best: Option<(Choice, f64)> = None;
         for (turn, batch) in queue.chunks(AT_A_TIME).enumerate() {
             // A choice with a cost below a limit needs proofs of all that costs less.
@@ -282,10 +307,11 @@ impl Search<'_> {
                     Shape::Spline { .. } => IN_A_SPAN,
                     _ => ON_A_SURFACE,
                 };
-                let mut points = samples(self.truth, &region, &same[0].shape, spread);
-                let beside = on_grid(self.truth, &region, BESIDE_THE_LAYER, (BESIDE, [1, 1]));
-                points.extend(beside);
-                self.attempt(same, region, f0, &points)
+                let shape = &same[0].shape;
+                let mut points = samples(self.truth, &region, shape, spread);
+                points.extend(&beside);
+                let places = || verify::points(self.truth, &region, shape);
+                self.attempt(same, region, f0, &points, places)
             });
             let attempts: Vec<_> = attempts.collect();
             for (trial, approximation) in attempts.into_iter().flatten() {
@@ -303,44 +329,62 @@ impl Search<'_> {
         best.map(|(choice, _)| choice)
     }
 
-    /// Tries candidates of one shape, which differ in storage.
+    fn problem<'b>(
+        &self,
+        candidate: &Candidate,
+        region: Region,
+        f0: [f64; 2],
+        samples: &'b [Sample],
+    ) -> Problem<'b> {
+        let Candidate { channels, shape, counts, .. } = *candidate;
+        Problem { region, f0, tolerance: self.task.tolerance, channels, shape, counts, samples }
+    }
+
+    /// The fit, until it is proved to fail or its error is small enough.
+    fn fit(&self, problem: &Problem, enough: f64) -> Option<Fit> {
+        problem.fit(Effort { steps: STEPS, fails: FAILS + self.truth_error, enough })
+    }
+
+    /// The trials of candidates that this fit proves to fail; none where it does not.
+    fn failing(&self, same: &[Candidate], region: Region, f0: [f64; 2], fit: &Fit) -> Vec<Trial> {
+        if fit.bound <= FAILS + self.truth_error {
+            return Vec::new();
+        }
+        let verdict = || Verdict::Fails { bound: fit.bound, proof: fit.proof.clone() };
+        same.iter().map(|candidate| Trial::new(candidate, region, f0, verdict())).collect()
+    }
+
+    /// Tries candidates of one shape, which differ in storage, and verifies them at these places
+    /// until one passes: the cheaper storage comes first.
     fn attempt(
         &self,
         same: &[Candidate],
         region: Region,
         f0: [f64; 2],
         points: &[Sample],
+        places: impl FnOnce() -> Vec<Sample>,
     ) -> Vec<(Trial, Option<Approximation>)> {
-        let Task { tolerance, .. } = *self.task;
-        let Candidate { channels, shape, counts, .. } = same[0];
-        let problem = Problem { region, f0, tolerance, channels, shape, counts, samples: points };
-        let fails = FAILS + self.truth_error;
-        let fit = problem.fit(Effort { fails, ..EFFORT });
-        let trial = |candidate: &Candidate, verdict| Trial {
-            candidate: *candidate,
-            region,
-            f0,
-            cost: Cost::of(candidate, &region),
-            verdict,
-        };
-        let Some(fit) = fit else { return Vec::new() };
-        if fit.bound > FAILS + self.truth_error {
-            let Fit { bound, proof, .. } = fit;
-            let fails = |candidate| {
-                (trial(candidate, Verdict::Fails { bound, proof: proof.clone() }), None)
-            };
-            return same.iter().map(fails).collect();
+        let Some(first) = same.first() else { return Vec::new() };
+        let problem = self.problem(first, region, f0, points);
+        let Some(fit) = self.fit(&problem, ENOUGH) else { return Vec::new() };
+        let failing = self.failing(same, region, f0, &fit);
+        if !failing.is_empty() {
+            return failing.into_iter().map(|trial| (trial, None)).collect();
         }
-        let places = verify::points(self.truth, &region, &shape);
-        same.iter()
-            .map(|candidate| {
-                let approximation = candidate.with(&fit, self.truth.lobe(), region);
-                let worst = verify::measure(&approximation, f0, tolerance, &places);
-                let verdict = self.judged(&approximation, f0, worst);
-                let passes = matches!(verdict, Verdict::Passes(_));
-                (trial(candidate, verdict), passes.then_some(approximation))
-            })
-            .collect()
+        let places = places();
+        let mut tried = Vec::new();
+        for candidate in same {
+            let approximation = candidate.with(&fit, self.truth.lobe(), region);
+            let worst = verify::measure(&approximation, f0, self.task.tolerance, &places);
+            let verdict = self.judged(&approximation, f0, worst);
+            let passes = matches!(verdict, Verdict::Passes(_));
+            let approximation = passes.then_some(approximation);
+            tried.push((Trial::new(candidate, region, f0, verdict), approximation));
+            if passes {
+                break;
+            }
+        }
+        tried
     }
 
     /// Whether numbers with this error at points meet the tolerance anywhere.

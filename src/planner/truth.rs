@@ -5,13 +5,13 @@ use super::tolerance::Tolerance;
 use crate::approximation::{Along, Region};
 use crate::backend::cpu::{Baker, bake_points};
 use crate::brdf::Microfacet;
-use crate::brdf::fresnel::Schlick;
+use crate::brdf::fresnel::{Schlick, schlick_weight};
 use crate::integrate::interpolant::norms::Norms;
 use crate::integrate::interpolant::{Interpolant, InterpolantRule};
 use crate::integrate::rule::{Method, Rule};
 use crate::integrate::rules::{D10240, L4608, REFERENCE, S2304};
 use crate::integrate::{Integrand, ScaleBias};
-use crate::numeric::lanes::F64x8;
+use crate::numeric::lanes::{F64x8, Work, vectorised};
 use crate::units::alpha_of;
 use rayon::prelude::*;
 use std::sync::OnceLock;
@@ -26,6 +26,12 @@ pub struct Albedo {
 }
 
 impl Albedo {
+    /// Of A and B.
+    #[inline(always)]
+    fn of([a, b]: [f64; 2]) -> Self {
+        Albedo { e: a + b, b }
+    }
+
     /// E(F0).
     pub fn at(self, f0: f64) -> f64 {
         self.b + f0 * (self.e - self.b)
@@ -82,25 +88,18 @@ impl Truth {
     /// E and B at these n·v of one roughness.
     pub fn row(&self, roughness: f64, novs: &[f64]) -> Vec<Albedo> {
         let alpha = alpha_of(roughness);
-        let of = |[a, b]: [f64; 2]| Albedo { e: a + b, b };
+        if alpha == 0.0 {
+            // A mirror reflects F.
+            return novs.iter().map(|&nov| Albedo { e: 1.0, b: schlick_weight(nov) }).collect();
+        }
         if !self.rule.covers(alpha) {
             let points: Vec<(f64, f64)> = novs.iter().map(|&nov| (nov, alpha)).collect();
             let field = self.fine.bake_points(&points);
-            return field.scale_bias().iter().map(|value| of(value.array())).collect();
+            return field.scale_bias().iter().map(|value| Albedo::of(value.array())).collect();
         }
-        let row = self.interpolant.row(alpha);
         let mut albedos = Vec::with_capacity(novs.len());
-        for chunk in novs.chunks(16) {
-            let lanes = |half: usize| {
-                F64x8(std::array::from_fn(|i| chunk[(8 * half + i).min(chunk.len() - 1)]))
-            };
-            let [first, second] = row.at(Schlick, [lanes(0), lanes(1)]);
-            let value = |i: usize| {
-                let half = if i < 8 { &first } else { &second };
-                of([half.0[0].0[i % 8], half.0[1].0[i % 8]])
-            };
-            albedos.extend((0..chunk.len()).map(value));
-        }
+        let interpolant = &self.interpolant;
+        vectorised(Interpolated { interpolant, alpha, novs, albedos: &mut albedos });
         albedos
     }
 
@@ -148,5 +147,33 @@ impl Truth {
             places.iter().map(|&(nov, roughness)| (nov, alpha_of(roughness))).collect();
         let field = bake_points(lobe, &points, &REFERENCE);
         field.scale_bias().iter().map(|value| Albedo { e: value.e(), b: value.b }).collect()
+    }
+}
+
+/// Values of an interpolant at these n·v.
+struct Interpolated<'a> {
+    interpolant: &'a Interpolant<2>,
+    alpha: f64,
+    novs: &'a [f64],
+    albedos: &'a mut Vec<Albedo>,
+}
+
+impl Work for Interpolated<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let row = self.interpolant.row(self.alpha);
+        for chunk in self.novs.chunks(16) {
+            let lanes = |half: usize| {
+                F64x8(std::array::from_fn(|i| chunk[(8 * half + i).min(chunk.len() - 1)]))
+            };
+            let [first, second] = row.at(Schlick, [lanes(0), lanes(1)]);
+            let value = |i: usize| {
+                let half = if i < 8 { &first } else { &second };
+                Albedo::of([half.0[0].0[i % 8], half.0[1].0[i % 8]])
+            };
+            self.albedos.extend((0..chunk.len()).map(value));
+        }
     }
 }

@@ -98,7 +98,7 @@ impl Functions {
                 );
             }
             Kind::Spans { order, offsets, samples, by_span } => {
-                let mut local = Local::default();
+                let mut local = Local::new(offsets.len());
                 for &index in by_span {
                     let (first, functions) = &samples[index];
                     if local.first != *first {
@@ -123,24 +123,17 @@ impl Functions {
         matrix: &mut Banded,
         side: &mut [f64],
     ) {
-        for (index, functions) in values.chunks_exact(width).enumerate() {
-            let own = index * ends..(index + 1) * ends;
-            let (products, targets) = sums(&rows[own.clone()], &weights[own]);
+        let functions = values.chunks_exact(width).flat_map(|own| std::iter::repeat_n(own, ends));
+        let each = rows.iter().zip(weights).zip(functions).map(|((row, w), own)| (row, w, own));
+        let mut all = vec![0.0; self.size];
+        for (row, weight, functions) in each {
             for c in 0..self.channels {
-                for d in 0..=c {
-                    let product = products[c + d];
-                    for i in 0..counts[c] {
-                        let factor = product * functions[i];
-                        let end = if c == d { i + 1 } else { counts[d] };
-                        for (j, function) in functions.iter().enumerate().take(end) {
-                            let at = (c * counts[0] + i, d * counts[0] + j);
-                            matrix.add(at.0, at.1, factor * function);
-                        }
-                    }
-                }
-                for i in 0..counts[c] {
-                    side[c * counts[0] + i] += targets[c] * functions[i];
-                }
+                let own = &mut all[c * counts[0]..][..counts[c]];
+                own.iter_mut().zip(functions).for_each(|(one, f)| *one = row.factors[c] * f);
+            }
+            for (i, value) in all.iter().enumerate() {
+                matrix.add_row(i, weight * value, &all);
+                side[i] += weight * row.target * value;
             }
         }
     }
@@ -199,26 +192,27 @@ fn sums(rows: &[Row], weights: &[f64]) -> ([f64; 3], [f64; 2]) {
 
 /// The part of the system that the samples of a span add.
 struct Local {
+    /// Control points of a span.
+    taps: usize,
     first: usize,
     is_empty: bool,
     products: [[[f64; 16]; 16]; 3],
     targets: [[f64; 16]; 2],
 }
 
-impl Default for Local {
-    fn default() -> Self {
-        Local { first: 0, is_empty: true, products: [[[0.0; 16]; 16]; 3], targets: [[0.0; 16]; 2] }
-    }
-}
-
 impl Local {
+    fn new(taps: usize) -> Self {
+        let (products, targets) = ([[[0.0; 16]; 16]; 3], [[0.0; 16]; 2]);
+        Local { taps, first: 0, is_empty: true, products, targets }
+    }
+
     fn add(&mut self, functions: &[f64; 16], rows: &[Row], weights: &[f64]) {
         self.is_empty = false;
         let (products, targets) = sums(rows, weights);
         for (product, sum) in products.iter().zip(&mut self.products) {
-            for (row, function) in sum.iter_mut().zip(functions) {
+            for (row, function) in sum.iter_mut().zip(functions).take(self.taps) {
                 let factor = product * function;
-                for (entry, function) in row.iter_mut().zip(functions) {
+                for (entry, function) in row.iter_mut().zip(functions).take(self.taps) {
                     *entry += factor * function;
                 }
             }
@@ -255,6 +249,6 @@ impl Local {
                 }
             }
         }
-        *self = Local { first: self.first, ..Local::default() };
+        *self = Local { first: self.first, ..Local::new(self.taps) };
     }
 }
