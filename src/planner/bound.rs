@@ -58,7 +58,8 @@ const MOST_POINTS: usize = 60_000;
 const ROUNDED: f64 = 1.0 + 1e-9;
 
 /// Bounds the error of a lookup at both ends of a range of F0, the largest of which is `measured`
-/// as a share of the tolerance; none where the interpolant of the truth covers nothing of its region.
+/// as a share of the tolerance; none where the interpolant of the truth covers nothing of its
+/// region.
 pub fn bound(
     approximation: &Approximation,
     f0: [f64; 2],
