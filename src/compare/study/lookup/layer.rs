@@ -2,7 +2,7 @@
 //! that the planner fits.
 //!
 //! Both are judged by the same search as tables over n·v and roughness, at the places of
-//! [`PLACES`].
+//! `PLACES`.
 
 use super::{Axes, Lookups, PATIENCE, Reading, axes_of};
 use crate::approximation::place::{Across, Along};
