@@ -75,7 +75,8 @@ fn main() -> Result<()> {
 fn row(domain: Domain, truth: &Truth) -> Result<Row> {
     let started = Instant::now();
     let tolerance = Tolerance::Absolute(TOLERANCE);
-    let task = Task { domain: domain.clone(), tolerance, weights: Weights::default() };
+    let weights = Weights::default();
+    let task = Task { domain: domain.clone(), tolerance, weights, sampler: None };
     let Outcome { choice, cost, .. } = search(&task, truth);
     let seconds = started.elapsed().as_secs_f64();
     let whole = domain.whole().map_or([0.0, 1.0], |(_, f0)| f0);

@@ -9,11 +9,13 @@ pub mod numbers;
 pub mod place;
 pub mod shape;
 pub mod table;
+pub mod texture;
 
 pub use channels::Channels;
 pub use numbers::{Numbers, Storage};
 pub use place::{Across, Along};
 pub use shape::Shape;
+pub use texture::{Sampler, Texels};
 
 use crate::brdf::Microfacet;
 use crate::numeric::lanes::Vector;
@@ -56,17 +58,32 @@ pub struct Approximation {
 impl Approximation {
     /// The channels at these (n·v, perceptual roughness), in the arithmetic of a shader.
     pub fn at<V: Vector>(&self, nov: V, roughness: V) -> [V; 2] {
+        self.beside(nov, roughness, [0.0; 2])
+    }
+
+    /// The channels where the coordinates of the shape are so far from those of a place.
+    fn beside<V: Vector>(&self, nov: V, roughness: V, shift: [f64; 2]) -> [V; 2] {
+        let [x, y] = self.shape.coordinates(&self.region, nov, roughness);
+        let coordinates = match shift {
+            [0.0, 0.0] => [x, y],
+            _ => [x + shift[0], y + shift[1]],
+        };
         let mut channels = [V::from(0.0); 2];
         for (channel, numbers) in channels.iter_mut().zip(&self.numbers) {
-            *channel = self.shape.sum(&self.region, numbers, nov, roughness);
+            *channel = self.shape.sum(numbers, coordinates);
         }
         channels
     }
 
     /// The albedo E(F0) at these places.
     pub fn albedo<V: Vector>(&self, nov: V, roughness: V, f0: V) -> V {
+        self.albedo_beside(nov, roughness, f0, [0.0; 2])
+    }
+
+    /// The same where a sampler is so far off: see [`Shape::filter`].
+    pub fn albedo_beside<V: Vector>(&self, nov: V, roughness: V, f0: V, shift: [f64; 2]) -> V {
         let weights = self.channels.weights(nov, f0);
-        let channels = self.at(nov, roughness);
+        let channels = self.beside(nov, roughness, shift);
         weights[0] * channels[0] + weights[1] * channels[1]
     }
 

@@ -165,6 +165,7 @@ fn a_plan_takes_no_more_bytes() {
                 domain: Domain { least_nov: LEAST.0, pieces: vec![piece.clone()] },
                 tolerance: Tolerance::Absolute(*error),
                 weights: Weights::default(),
+                sampler: None,
             };
             let outcome = search(&task, &TRUTH);
             assert!(!outcome.choice.is_empty(), "nothing at {error}");

@@ -35,6 +35,7 @@ fn plan() -> PlanFile {
         },
         tolerance: Tolerance::Absolute(TOLERANCE),
         weights: Weights::default(),
+        sampler: None,
     };
     PlanFile::new(&task, &truth, &search(&task, &truth), String::new()).unwrap()
 }

@@ -23,6 +23,7 @@ fn task(roughness: [f64; 2], tolerance: f64) -> Task {
         domain: Domain { least_nov: 0.0, pieces: vec![piece] },
         tolerance: Tolerance::Absolute(tolerance),
         weights: Weights::default(),
+        sampler: None,
     }
 }
 

@@ -202,6 +202,14 @@ pub fn check(approximation: &Approximation) -> Result<()> {
     }
     let lengths = || numbers.iter().filter(|numbers| !numbers.is_empty()).map(Numbers::len);
     let longest = lengths().max().unwrap_or(0);
+    if let Shape::Texture { .. } = shape {
+        return Err(Error::bad_input(
+            "code",
+            "numbers that stand in it",
+            "a texture",
+            "write the texture with --table, and its lookup with splitsum lookup",
+        ));
+    }
     let fits = match *shape {
         Shape::Polynomial { .. } => low == high,
         Shape::Surface { columns, .. } => {
@@ -213,6 +221,7 @@ pub fn check(approximation: &Approximation) -> Result<()> {
             let is_spline = (1..=3).contains(&degree) && columns.min(rows) > degree && low < high;
             is_spline && lengths().all(|length| length == columns * rows)
         }
+        Shape::Texture { .. } => false,
     };
     let finite = |numbers: &Numbers| match numbers {
         Numbers::Floats(floats) | Numbers::Halves(floats) => {

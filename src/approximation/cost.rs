@@ -3,6 +3,7 @@
 
 use super::place::{Across, Along};
 use super::{Channels, Region, Shape, Storage};
+use crate::table::axis::{Axis, Mapping, Parameter};
 
 /// A division or a root, where a sum, a product, a comparison or a conversion is 1.
 const ROOT: usize = 4;
@@ -45,6 +46,8 @@ impl Lookup<'_> {
         let sums = match self.shape {
             Shape::Polynomial { x } => CLAMP + along(x, true) + steps,
             Shape::Surface { x, y, .. } => 2 * CLAMP + along(x, false) + power(y) + steps,
+            // The place on each axis; the sampler does the rest.
+            Shape::Texture { x, y, .. } => [x, y].iter().map(texel).sum(),
             Shape::Spline { x, y, size, degree } => {
                 let least = if self.region.least_nov > 0.0 { 2 } else { 0 };
                 let smoothest = y.of::<f64>(self.region.roughness[0]);
@@ -74,9 +77,22 @@ impl Lookup<'_> {
     pub fn loads(&self) -> usize {
         match self.shape {
             Shape::Polynomial { .. } | Shape::Surface { .. } => 0,
+            // A sampler reads four texels at once.
+            Shape::Texture { .. } => 1,
             Shape::Spline { degree, .. } => (degree + 1) * (degree + 1),
         }
     }
+}
+
+/// The place of a texel: the root of some mappings, a complement, and a product and a sum.
+fn texel(axis: &Axis) -> usize {
+    let root = match axis.spec().mapping {
+        Mapping::Linear => 0,
+        Mapping::Sqrt => ROOT,
+        Mapping::SqrtComplement => 1 + ROOT,
+    };
+    let alpha = if axis.spec().parameter == Parameter::Alpha { 1 } else { 0 };
+    CLAMP + alpha + root + STEP
 }
 
 /// The coordinate along n·v; where the roughness is constant, so is what follows from it.

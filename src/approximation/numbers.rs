@@ -84,6 +84,16 @@ impl Storage {
     }
 }
 
+impl Storage {
+    /// The same as a texture has them: codes span 0 to 1.
+    pub fn store_texels(self, texels: &[f64]) -> Numbers {
+        let Some(last) = self.last() else { return self.store(texels) };
+        let code = |&texel: &f64| (texel * f64::from(last)).round().clamp(0.0, f64::from(last));
+        let codes = texels.iter().map(|texel| code(texel) as u16).collect();
+        Numbers::Codes { offset: 0.0, scale: 1.0 / f32::from(last), last, codes }
+    }
+}
+
 impl Numbers {
     /// How they are stored.
     pub fn storage(&self) -> Storage {

@@ -1,7 +1,9 @@
 //! Shapes: the functions of (n·v, roughness) that the numbers of an approximation are factors of.
 
+use super::texture::{FILTER, Texels, place_on};
 use super::{Across, Along, Numbers, Region};
 use crate::numeric::lanes::{Real, Vector};
+use crate::table::axis::Axis;
 
 /// A shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +35,25 @@ pub enum Shape {
         /// Of the pieces: 1 is bilinear, 2 quadratic, 3 cubic.
         degree: usize,
     },
+    /// A texture over all of n·v and roughness, as a bilinear sampler with clamped edges reads it:
+    /// number j·columns + i is texel (i, j).
+    Texture {
+        /// Along n·v.
+        x: Axis,
+        /// Across roughness or α.
+        y: Axis,
+        /// What its texels are.
+        texels: Texels,
+    },
+}
+
+/// The control points of a shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Net {
+    /// Along n·v and across roughness.
+    pub size: [usize; 2],
+    /// Of its pieces.
+    pub degree: usize,
 }
 
 /// The numbers that count at a place, and their weights: the control points of the span where it
@@ -87,24 +108,47 @@ fn horner<R: Real>(count: usize, coefficient: impl Fn(usize) -> f64, x: R) -> R 
 }
 
 impl Shape {
-    /// Σ number · function at these places.
-    pub fn sum<V: Vector>(&self, region: &Region, numbers: &Numbers, nov: V, roughness: V) -> V {
+    /// Its control points; none of polynomials.
+    pub fn net(&self) -> Option<Net> {
+        match *self {
+            Shape::Polynomial { .. } | Shape::Surface { .. } => None,
+            Shape::Spline { size, degree, .. } => Some(Net { size, degree }),
+            Shape::Texture { x, y, .. } => Some(Net { size: [x.size(), y.size()], degree: 1 }),
+        }
+    }
+
+    /// The coordinates that it takes; those of a net are from 0 to 1.
+    pub fn coordinates<R: Real>(&self, region: &Region, nov: R, roughness: R) -> [R; 2] {
+        match *self {
+            Shape::Polynomial { x } => [x.at(0.0, nov, roughness), R::from(0.0)],
+            Shape::Surface { x, y, .. } => [x.at(0.0, nov, roughness), y.of(roughness)],
+            Shape::Spline { x, y, .. } => {
+                [x.at(region.least_nov, nov, roughness), y.at(region, roughness)]
+            }
+            Shape::Texture { x, y, .. } => {
+                [place_on(&x, nov, roughness), place_on(&y, nov, roughness)]
+            }
+        }
+    }
+
+    /// By how much a sampler may be off along each coordinate; nothing where none reads it.
+    pub fn filter(&self) -> [f64; 2] {
+        match self {
+            Shape::Texture { x, y, .. } => [x, y].map(|axis| FILTER / (axis.size() - 1) as f64),
+            _ => [0.0; 2],
+        }
+    }
+
+    /// Σ number · function at these coordinates.
+    pub fn sum<V: Vector>(&self, numbers: &Numbers, [x, y]: [V; 2]) -> V {
         if numbers.is_empty() {
             return V::from(0.0);
         }
         let number = |index: usize| numbers.get(index);
-        match *self {
-            Shape::Polynomial { x } => horner(numbers.len(), number, x.at(0.0, nov, roughness)),
-            Shape::Surface { x, y, columns } => {
-                let (x, y) = (x.at(0.0, nov, roughness), y.of(roughness));
-                let row = |j: usize| horner(columns, |i| number(j * columns + i), x);
-                let rows = numbers.len() / columns;
-                (0..rows - 1).rev().fold(row(rows - 1), |sum, j| sum * y + row(j))
-            }
-            Shape::Spline { x, y, size: [columns, rows], degree } => {
-                let x = x.at(region.least_nov, nov, roughness);
+        match (*self, self.net()) {
+            (_, Some(Net { size: [columns, rows], degree })) => {
                 let (i, along) = spans(degree, columns, x);
-                let (j, across) = spans(degree, rows, y.at(region, roughness));
+                let (j, across) = spans(degree, rows, y);
                 let mut sum = V::from(0.0);
                 for (b, &across) in across.iter().enumerate().take(degree + 1) {
                     let mut row = V::from(0.0);
@@ -116,6 +160,12 @@ impl Shape {
                 }
                 sum
             }
+            (Shape::Surface { columns, .. }, None) => {
+                let row = |j: usize| horner(columns, |i| number(j * columns + i), x);
+                let rows = numbers.len() / columns;
+                (0..rows - 1).rev().fold(row(rows - 1), |sum, j| sum * y + row(j))
+            }
+            _ => horner(numbers.len(), number, x),
         }
     }
 }

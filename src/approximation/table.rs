@@ -1,6 +1,6 @@
 //! A net as a table, for files: its codes as they are, with what a reader has to know of them.
 
-use super::{Across, Along, Approximation, Channels, Numbers, Shape, Storage};
+use super::{Across, Along, Approximation, Channels, Numbers, Shape, Storage, Texels};
 use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::table::axis::{Axis, AxisSpec, Nodes, Parameter};
@@ -37,39 +37,42 @@ fn names(channels: Channels) -> [(&'static str, &'static str); 2] {
 
 impl Approximation {
     /// The control points of a net as a table of columns and rows, the codes unchanged: a channel
-    /// is (number - offset) / (last · scale).
+    /// is (number - offset) / (last · scale). A texture is itself.
     ///
     /// # Errors
     ///
     /// [`Error::BadInput`] for polynomials, which are no table.
     pub fn table(&self, promise: &Promise) -> Result<Table> {
-        let Shape::Spline { x, y, size, degree } = self.shape else {
-            let cure = "write code instead, as in --code FILE.wgsl";
-            let expected = "a net of control points";
-            return Err(Error::bad_input("table", expected, "polynomials", cure));
-        };
-        let storage = self.numbers.first().map_or(Storage::F32, Numbers::storage);
-        let precision = match storage {
-            Storage::F32 | Storage::F16 => Precision::F32,
-            Storage::Unorm16 => Precision::Unorm16,
-            Storage::Unorm8 => Precision::Unorm8,
-        };
-        let axis = |count: usize| {
+        let control = |count: usize| {
             let spec = AxisSpec { nodes: Nodes::Edges, ..AxisSpec::of(Parameter::Control) };
             Axis::new(spec, count)
         };
-        let layout = Layout {
-            x: axis(size[0])?,
-            y: axis(size[1])?,
-            slices: None,
-            channels: self.table_channels(),
+        let (x, y, texels, filter) = match self.shape {
+            Shape::Spline { x, y, size: [columns, rows], degree } => {
+                let filter = self.filter((x, y), degree);
+                (control(columns)?, control(rows)?, Texels::Fitted, filter)
+            }
+            Shape::Texture { x, y, texels } => (x, y, texels, "bilinear, clamped".to_owned()),
+            Shape::Polynomial { .. } | Shape::Surface { .. } => {
+                let cure = "write code instead, as in --code FILE.wgsl";
+                let expected = "a net of control points";
+                return Err(Error::bad_input("table", expected, "polynomials", cure));
+            }
         };
+        let storage = self.numbers.first().map_or(Storage::F32, Numbers::storage);
+        let precision = match storage {
+            Storage::F32 => Precision::F32,
+            Storage::F16 => Precision::F16,
+            Storage::Unorm16 => Precision::Unorm16,
+            Storage::Unorm8 => Precision::Unorm8,
+        };
+        let layout = Layout { x, y, slices: None, channels: self.table_channels() };
         let part = Part {
             channels: (0..layout.channels.len()).collect(),
             provenance: self.provenance(promise),
             claim: Claim::Fitted {
-                nodes: "fitted",
-                filter: self.filter((x, y), degree),
+                nodes: texels.word(),
+                filter,
                 domain: self.domain(promise),
                 tolerance: promise.tolerance.clone(),
                 measured_error: promise.measured_error,
@@ -84,7 +87,9 @@ impl Approximation {
         let named = self.numbers.iter().zip(names(self.channels));
         let channel = |(numbers, (name, meaning)): (&Numbers, (&str, &str))| {
             let mut channel = Channel::new(name, meaning);
-            if let Numbers::Codes { offset, scale, last, .. } = numbers {
+            // A texture has the values themselves.
+            let is_net = matches!(self.shape, Shape::Spline { .. });
+            if let (true, Numbers::Codes { offset, scale, last, .. }) = (is_net, numbers) {
                 let range = f64::from(*scale) * f64::from(*last);
                 let range = if range > 0.0 { range } else { 1.0 };
                 (channel.scale, channel.offset) = (1.0 / range, -f64::from(*offset) / range);
@@ -97,7 +102,10 @@ impl Approximation {
     fn provenance(&self, promise: &Promise) -> Provenance {
         let [low, high] = promise.f0;
         Provenance {
-            table: "fitted net",
+            table: match self.shape {
+                Shape::Texture { .. } => "planned texture",
+                _ => "fitted net",
+            },
             equation: format!("channels: {}", self.channels.about()),
             model: self.lobe.ndf.word(),
             masking: Some(self.lobe.masking.word()),

@@ -8,7 +8,9 @@ pub use outputs::{carry_out, is_plan, read_plan};
 use super::choices;
 use super::lookup::language_of;
 use super::{output, place, print, print_json, resources, standard_output, usage};
+use crate::approximation::{Channels, Sampler, Storage};
 use crate::brdf::{Masking, Microfacet, Ndf};
+use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::lookup::{DEFAULT_PREFIX, check_name};
 use crate::planner::check::{Checked, check};
@@ -77,6 +79,33 @@ pub struct PlanArgs {
     /// 8 bits at a radiance, over that of a diffuse base
     #[arg(long, value_name = "ERROR", default_value = "0.004", help_heading = "The plan")]
     tolerance: String,
+    /// The shader stays as it is: it reads a bilinear texture of A and B (ab) or of B and E (be)
+    #[arg(long, value_name = "ab|be", value_parser = ["ab", "be"], help_heading = "The plan")]
+    texture: Option<String>,
+    /// Along x of --texture, as of bake: nov, with sqrt and edges where the shader has them
+    #[arg(
+        long,
+        value_name = "AXIS",
+        default_value = "nov",
+        help_heading = "The plan",
+        requires = "texture"
+    )]
+    x: String,
+    /// Along y of --texture: roughness or alpha
+    #[arg(
+        long,
+        value_name = "AXIS",
+        default_value = "roughness",
+        help_heading = "The plan",
+        requires = "texture"
+    )]
+    y: String,
+    /// Storage of --texture: f16, unorm16 or unorm8 [default: the cheapest that does]
+    #[arg(
+        long, value_name = "NAME", value_parser = ["f16", "unorm16", "unorm8"],
+        help_heading = "The plan", requires = "texture"
+    )]
+    storage: Option<String>,
     /// What is to be small: bytes=X,loads=X,operations=X weighs them
     #[arg(long, value_name = "WEIGHTS", help_heading = "The plan")]
     cost: Option<String>,
@@ -104,7 +133,7 @@ pub struct PlanArgs {
         long, value_name = "FILE.toml", help_heading = "The check",
         conflicts_with_all = [
             "scenes", "roughness", "f0", "output", "code", "table", "html", "model", "masking",
-            "cost", "specular_antialiasing", "least_roughness", "ignore_texels"
+            "cost", "texture", "specular_antialiasing", "least_roughness", "ignore_texels"
         ]
     )]
     check: Option<String>,
@@ -123,9 +152,11 @@ pub fn run(arguments: &PlanArgs) -> Result<()> {
     let lobe = lobe(arguments)?;
     let tolerance = Tolerance::named(&arguments.tolerance)?;
     let weights = arguments.cost.as_deref().map_or(Ok(Weights::default()), Weights::named)?;
+    let sampler = sampler(arguments)?;
     check_name("prefix", &arguments.prefix)?;
     arguments.code.iter().try_for_each(|name| language_of(name).map(drop))?;
-    arguments.table.iter().try_for_each(|name| table_format(name).map(drop))?;
+    let is_texture = sampler.is_some();
+    arguments.table.iter().try_for_each(|name| table_format(name, is_texture).map(drop))?;
     if !(0.0..1.0).contains(&arguments.nov_min) {
         let got = arguments.nov_min.to_string();
         return Err(Error::bad_input("nov-min", "0 to below 1", got, "give one in that range"));
@@ -135,18 +166,13 @@ pub fn run(arguments: &PlanArgs) -> Result<()> {
     resources::start(SEARCH, None, resources::ALLOW)?;
     let scenes = scenes(arguments)?;
     let started = Instant::now();
-    let task = Task { domain: domain(&scenes, lobe, arguments)?, tolerance, weights };
+    let domain = domain(&scenes, lobe, arguments)?;
+    let task = Task { domain, tolerance, weights, sampler };
     let truth = Truth::new(lobe);
     let outcome = search(&task, &truth);
     let seconds = started.elapsed().as_secs_f64();
     if outcome.choice.is_empty() {
-        let got = format!(
-            "{} candidates that miss it, the largest of each kind among them (where these miss it \
-             by far, smaller ones are not tried)",
-            outcome.trials.len()
-        );
-        let cure = "give a larger tolerance, a smaller range or a larger --nov-min";
-        return Err(Error::bad_input("tolerance", "one that a candidate meets", got, cure));
+        return Err(unmet(&task, outcome.trials.len()));
     }
     let mut plan = PlanFile::new(&task, &truth, &outcome, command(arguments))?;
     plan.outputs = made(arguments).map(|name| output_of(output, name, arguments)).collect();
@@ -166,6 +192,41 @@ pub fn run(arguments: &PlanArgs) -> Result<()> {
         return print_json(&report);
     }
     print(&report.text()?)
+}
+
+/// No candidate of so many meets the tolerance.
+fn unmet(task: &Task, candidates: usize) -> Error {
+    let (got, cure) = match task.sampler {
+        Some(_) => (
+            format!("{candidates} textures of up to 256 x 256 texels that miss it"),
+            "give a larger tolerance, a rougher range or axes such as nov,sqrt,edges; next to a \
+             mirror no texture over n.v and roughness converges: change the shader, without \
+             --texture",
+        ),
+        None => (
+            format!(
+                "{candidates} candidates that miss it, the largest of each kind among them (where \
+                 these miss it by far, smaller ones are not tried)"
+            ),
+            "give a larger tolerance, a smaller range or a larger --nov-min",
+        ),
+    };
+    Error::bad_input("tolerance", "one that a candidate meets", got, cure)
+}
+
+/// The texture that a shader reads.
+fn sampler(arguments: &PlanArgs) -> Result<Option<Sampler>> {
+    let channels = match arguments.texture.as_deref() {
+        None => return Ok(None),
+        Some("ab") => Channels::ScaleBias,
+        Some(_) => Channels::BiasEnergy,
+    };
+    if let Some(name) = arguments.code.first() {
+        let cure = "write the texture with --table, and its lookup with splitsum lookup";
+        return Err(usage("--code", "none with --texture", name, cure));
+    }
+    let storage = arguments.storage.as_deref().map(Storage::named).transpose()?;
+    Sampler::new(channels, [arguments.x.parse()?, arguments.y.parse()?], storage).map(Some)
 }
 
 /// The files that are made of the choice.
@@ -222,6 +283,12 @@ fn command(arguments: &PlanArgs) -> String {
     flag("--nov-min", Some(nov_min.to_string()));
     flag("--tolerance", Some(tolerance.clone()));
     flag("--cost", cost.clone());
+    if arguments.texture.is_some() {
+        flag("--texture", arguments.texture.clone());
+        flag("--x", Some(arguments.x.clone()));
+        flag("--y", Some(arguments.y.clone()));
+        flag("--storage", arguments.storage.clone());
+    }
     flag("--model", model.map(|model| model.to_string()));
     flag("--masking", masking.map(|masking| masking.to_string()));
     let given = |number: f64| (number > 0.0).then(|| number.to_string());

@@ -184,7 +184,10 @@ impl Question<'_> {
         let of = |k: usize| self.between(&bends[k], &pieces, widths[k] / steps[k] as f64);
         let dip = |k: usize| (widths[k] / steps[k] as f64).powi(2) / 8.0 * bends[k].truth;
         let between = of(0) + of(1);
-        let beyond = [between + self.rounding, (dip(0) + dip(1)) * ROUNDED];
+        // A sampler is off by a share of a texel.
+        let filter = self.approximation.shape.filter();
+        let sampler: f64 = pieces.iter().map(|channel| channel.moved(filter)).sum();
+        let beyond = [between + sampler + self.rounding, (dip(0) + dip(1)) * ROUNDED];
         let Largest { share, points, loosest, .. } = self.largest(&self.rows(cell, steps), beyond);
         let points = points + at_corners.points;
         // Its corners said too little of what is between them.

@@ -2,10 +2,13 @@
 
 use super::chebyshev::Chebyshev;
 use super::fit::Fit;
+use super::truth::{Albedo, Truth};
 use crate::approximation::{
-    Across, Along, Approximation, Channels, Numbers, Region, Shape, Storage,
+    Across, Along, Approximation, Channels, Numbers, Region, Sampler, Shape, Storage, Texels,
 };
 use crate::brdf::Microfacet;
+use crate::error::Result;
+use crate::table::axis::Parameter;
 
 /// A candidate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +45,7 @@ impl Candidate {
     pub fn with(&self, fit: &Fit, lobe: Microfacet, region: Region) -> Approximation {
         let store = |numbers: &Vec<f64>| match self.shape {
             Shape::Spline { .. } => self.storage.store(numbers),
+            Shape::Texture { .. } => self.storage.store_texels(numbers),
             shape => {
                 let count = self.counts[0].max(self.counts[1]);
                 let basis = Chebyshev::of(&shape, &region, count);
@@ -50,6 +54,28 @@ impl Candidate {
         };
         let numbers = fit.numbers.iter().map(store).collect();
         Approximation { lobe, region, channels: self.channels, shape: self.shape, numbers }
+    }
+
+    /// The texture whose texels are integrals; none of other shapes.
+    pub fn exact(&self, truth: &Truth, region: Region) -> Option<Approximation> {
+        let Shape::Texture { x, y, texels: Texels::Exact } = self.shape else { return None };
+        let novs = x.values();
+        let row = |&value: &f64| {
+            let is_alpha = y.spec().parameter == Parameter::Alpha;
+            (if is_alpha { value.sqrt() } else { value }, novs.clone())
+        };
+        let rows: Vec<(f64, Vec<f64>)> = y.values().iter().map(row).collect();
+        let integrals = truth.rows(&rows);
+        let numbers = |channel: usize| {
+            let of = |albedo: &Albedo| match self.channels {
+                Channels::BiasEnergy => [albedo.b, albedo.e][channel],
+                _ => albedo.scale_bias()[channel],
+            };
+            self.storage.store_texels(&integrals.iter().map(of).collect::<Vec<f64>>())
+        };
+        let numbers = (0..self.channels.count()).map(numbers).collect();
+        let (channels, shape, lobe) = (self.channels, self.shape, truth.lobe());
+        Some(Approximation { lobe, region, channels, shape, numbers })
     }
 
     /// The candidate that an approximation was.
@@ -65,6 +91,33 @@ impl Candidate {
         let shape = Shape::Polynomial { x };
         [Storage::F16, Storage::F32].map(|storage| Candidate { channels, shape, counts, storage })
     }
+}
+
+/// Texels along either side of a texture.
+const SIDES: [usize; 11] = [8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256];
+
+/// Most texels that are fitted: the time of a fit grows as the number of texels times the square of
+/// the shorter side.
+const MOST_FITTED: usize = 48 * 64;
+
+/// Every texture that a sampler could read.
+pub fn textures(sampler: &Sampler) -> Result<Vec<Candidate>> {
+    let Sampler { channels, axes, storage } = *sampler;
+    let mut storages = vec![Storage::Unorm8, Storage::F16, Storage::Unorm16];
+    storages.retain(|own| storage.is_none_or(|wish| wish == *own));
+    let mut candidates = Vec::new();
+    for [columns, rows] in SIDES.iter().flat_map(|&x| SIDES.map(|y| [x, y])) {
+        let count = columns * rows;
+        let is_fitted = count <= MOST_FITTED;
+        let all = [Some(Texels::Exact), is_fitted.then_some(Texels::Fitted)];
+        for texels in all.into_iter().flatten() {
+            let shape = Shape::texture(axes, [columns, rows], texels)?;
+            let counts = [count, count];
+            let of = |&storage: &Storage| Candidate { channels, shape, counts, storage };
+            candidates.extend(storages.iter().map(of));
+        }
+    }
+    Ok(candidates)
 }
 
 /// The channels for a range of F0.

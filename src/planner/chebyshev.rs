@@ -75,6 +75,7 @@ impl Chebyshev {
         let (x, y, columns) = match *shape {
             Shape::Surface { x, y, columns } => (x, Some(y), columns),
             Shape::Polynomial { x } | Shape::Spline { x, .. } => (x, None, count),
+            Shape::Texture { .. } => (Along::Nov, None, count),
         };
         // A coordinate along n·v is least at the roughest end.
         let least = x.at::<f64>(0.0, region.least_nov, region.roughness[1]);

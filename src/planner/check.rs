@@ -14,7 +14,6 @@ use super::tolerance::Tolerance;
 use super::truth::Truth;
 use super::verify::{self, Worst};
 use crate::approximation::{Approximation, Region};
-use crate::brdf::Microfacet;
 use crate::error::{Error, Result};
 use rayon::prelude::*;
 
@@ -31,8 +30,8 @@ pub struct Checked {
     pub not_found: usize,
 }
 
-/// Points in each span: others than those at which plans are made.
-const IN_A_SPAN: Spread = Spread::Even(9);
+/// Points in each span and between texels: others than those at which plans are made.
+const IN_A_SPAN: [Spread; 2] = [Spread::Even(9), Spread::Even(2)];
 
 /// Points of a shape without spans.
 const IN_ALL: [Spread; 2] = [Spread::Even(211), Spread::Even(53)];
@@ -67,7 +66,7 @@ pub fn check(file: &PlanFile) -> Result<Checked> {
     let slack = 1e-3 + 2.0 * error;
     let proofs = file.rejected.par_iter().enumerate();
     let proofs: Vec<Option<usize>> =
-        proofs.map(|entry| proved(file, entry, &task, lobe, slack)).collect::<Result<_>>()?;
+        proofs.map(|entry| proved(file, entry, &task, &truth, slack)).collect::<Result<_>>()?;
     is_complete(file, &task)?;
     Ok(Checked {
         worst,
@@ -138,7 +137,7 @@ fn proved(
     file: &PlanFile,
     (index, rejected): (usize, &Rejected),
     task: &Task,
-    lobe: Microfacet,
+    truth: &Truth,
     slack: f64,
 ) -> Result<Option<usize>> {
     let own = Candidate::named(&rejected.candidate)?;
@@ -159,7 +158,7 @@ fn proved(
             }
             let places: Vec<(f64, f64)> =
                 proof.iter().map(|point| (point.nov, point.roughness)).collect();
-            let truths = Truth::by_reference(lobe, &places);
+            let truths = Truth::by_reference(truth.lobe(), &places);
             let claim = Claim { candidate: &own, region: &region, tolerance: task.tolerance };
             let holds = claim.bound(&proof, &truths);
             if holds <= 1.0 || holds < bound * (1.0 - slack) {
@@ -184,8 +183,31 @@ fn proved(
                 _ => failed(format!("rejected {index}, {own}: it is no part of a failing entry")),
             }
         }
-        (None, None, Some(_)) => Ok(None),
+        (None, None, Some(_)) => match rejected.witness {
+            None => Ok(None),
+            Some(place) => witnessed(&own, rejected, place, task, truth).map(Some),
+        },
         _ => failed(format!("rejected {index}, {own}: expected one of bound, part_of and found")),
+    }
+}
+
+/// Verifies that a texture of integrals errs by more than the tolerance at a place: one point.
+fn witnessed(
+    candidate: &Candidate,
+    rejected: &Rejected,
+    [nov, roughness, f0]: [f64; 3],
+    task: &Task,
+    truth: &Truth,
+) -> Result<usize> {
+    let region = Region::new(task.domain.least_nov, rejected.roughness);
+    let own = Truth::by_reference(truth.lobe(), &[(nov, roughness)])[0];
+    let sample = Sample { nov, roughness, truth: own };
+    let worst = candidate
+        .exact(truth, region)
+        .map(|approximation| verify::measure(&approximation, [f0, f0], task.tolerance, &[sample]));
+    match worst {
+        Some(worst) if worst.share > 1.0 => Ok(1),
+        _ => failed(format!("{candidate}: n.v = {nov}, roughness {roughness} is no witness")),
     }
 }
 
@@ -202,14 +224,14 @@ fn is_complete(file: &PlanFile, task: &Task) -> Result<()> {
     let cost =
         |candidate: &Candidate, region: &Region| Cost::of(candidate, region).weighed(&task.weights);
     let limit = file.cost()?.weighed(&task.weights);
-    let whole = task.domain.whole().filter(|(region, _)| region.roughness[0] < region.roughness[1]);
+    let whole = task.domain.whole().filter(|(region, _)| task.is_over_roughness(region));
     if let Some((region, f0)) = whole {
         let known: std::collections::HashSet<String> = rejected
             .iter()
             .filter(|(_, entry)| entry.roughness == region.roughness && entry.f0 == f0)
             .map(|(candidate, _)| candidate.to_string())
             .collect();
-        let candidates = candidate::over_roughness(f0);
+        let candidates = task.candidates(f0);
         let cheaper = candidates.iter().filter(|candidate| cost(candidate, &region) < limit);
         for candidate in cheaper {
             if !known.contains(&candidate.to_string()) {

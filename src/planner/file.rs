@@ -1,20 +1,23 @@
 //! A plan as a file: the question, the answer with its numbers, and why nothing cheaper is taken.
 
+mod rejected;
+
+pub use rejected::Rejected;
+
 use super::bound::Bound;
 use super::candidate::Candidate;
 use super::cost::{Cost, Weights};
 use super::domain::{Domain, Piece};
-use super::fit::Multiplier;
-use super::proof::Claim;
-use super::search::{Outcome, Task, Trial, Verdict};
+use super::search::{Outcome, Task};
 use super::tolerance::Tolerance;
 use super::truth::Truth;
 use super::verify::Worst;
-use crate::approximation::{Approximation, Numbers, Region, Storage};
+use crate::approximation::{
+    Approximation, Channels, Numbers, Region, Sampler, Shape, Storage, Texels,
+};
 use crate::brdf::{Masking, Microfacet, Ndf};
 use crate::error::{Error, Result};
 use crate::numeric::half::nearest;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// A plan.
@@ -25,8 +28,8 @@ pub struct PlanFile {
     pub tool: String,
     /// The command that repeats it.
     pub command: String,
-    /// Control points and coefficients are fitted: they are no integrals at nodes.
-    pub nodes: String,
+    /// Control points, coefficients and texels are fitted, or integrals at their nodes.
+    pub nodes: Texels,
     /// The question.
     pub question: Question,
     /// Files that are made of the choice, relative to the plan's folder.
@@ -63,8 +66,36 @@ pub struct Question {
     pub least_nov: f64,
     /// What a byte, a load and an operation weigh.
     pub cost: String,
+    /// The texture that a shader reads, where it has to stay as it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sampler: Option<SamplerText>,
     /// The roughnesses and the F0 of the scene.
     pub pieces: Vec<PieceText>,
+}
+
+/// The texture that a shader reads.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SamplerText {
+    /// Its channels.
+    pub channels: Channels,
+    /// Its axes.
+    pub axes: [String; 2],
+    /// Its storage, where one is wished for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub storage: Option<Storage>,
+}
+
+impl SamplerText {
+    fn new(sampler: &Sampler) -> Self {
+        let Sampler { channels, axes, storage } = *sampler;
+        SamplerText { channels, axes: axes.map(|axis| axis.to_string()), storage }
+    }
+
+    fn sampler(&self) -> Result<Sampler> {
+        let [x, y] = &self.axes;
+        Sampler::new(self.channels, [x.parse()?, y.parse()?], self.storage)
+    }
 }
 
 /// Lobes of one roughness or of one range of it.
@@ -133,31 +164,6 @@ pub enum ChannelText {
     },
 }
 
-/// A candidate that costs less and does not do.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Rejected {
-    /// What it is.
-    pub candidate: String,
-    /// The roughnesses that it would be for.
-    pub roughness: [f64; 2],
-    /// The F0 that it would be for.
-    pub f0: [f64; 2],
-    /// No numbers have a smaller largest error over its tolerance: more than 1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub bound: Option<f64>,
-    /// Its functions are among those of this entry, counted from 0, which fails.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub part_of: Option<usize>,
-    /// The numbers that were found have this largest error over its tolerance; others may have a
-    /// smaller one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub found: Option<f64>,
-    /// The proof of the bound: n·v, roughness, F0 and multiplier of each point.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub proof: Vec<[f64; 4]>,
-}
-
 impl Chosen {
     fn new(approximation: &Approximation, worst: &Worst, f0: [f64; 2]) -> Self {
         let text = |numbers: &Numbers| match numbers {
@@ -198,6 +204,7 @@ impl PlanFile {
             tolerance: task.tolerance.words(),
             least_nov: task.domain.least_nov,
             cost: task.weights.to_string(),
+            sampler: task.sampler.as_ref().map(SamplerText::new),
             pieces: task.domain.pieces.iter().map(piece).collect(),
         };
         let f0_of = |region: &Region| {
@@ -214,17 +221,21 @@ impl PlanFile {
         Ok(PlanFile {
             tool: crate::lookup::TOOL.to_owned(),
             command,
-            nodes: "fitted".into(),
+            nodes: match outcome.choice.first().map(|(approximation, _)| approximation.shape) {
+                Some(Shape::Texture { texels, .. }) => texels,
+                _ => Texels::Fitted,
+            },
             question,
             outputs: Vec::new(),
             choice: outcome.choice.iter().map(chosen).collect(),
-            rejected: rejected(task, truth, outcome)?,
+            rejected: rejected::rejected(task, truth, outcome)?,
         })
     }
 
     /// The question.
     pub fn task(&self) -> Result<(Task, Microfacet)> {
-        let Question { model, masking, tolerance, least_nov, cost, pieces } = &self.question;
+        let Question { model, masking, tolerance, least_nov, cost, sampler, pieces } =
+            &self.question;
         let within = |range: &[f64; 2]| {
             range[0] <= range[1] && range.iter().all(|end| (0.0..=1.0).contains(end))
         };
@@ -246,6 +257,7 @@ impl PlanFile {
             domain: Domain { least_nov: *least_nov, pieces },
             tolerance: Tolerance::named(tolerance)?,
             weights: Weights::named(cost)?,
+            sampler: sampler.as_ref().map(SamplerText::sampler).transpose()?,
         };
         Ok((task, Microfacet::new(*model, Some(*masking))?))
     }
@@ -312,71 +324,6 @@ impl Chosen {
         }
         Ok(Approximation { lobe, region, channels, shape, numbers })
     }
-}
-
-/// What costs less than the choice and was rejected.
-fn rejected(task: &Task, truth: &Truth, outcome: &Outcome) -> Result<Vec<Rejected>> {
-    let limit = outcome.cost.weighed(&task.weights);
-    let counts = |trial: &&Trial| match trial.verdict {
-        // Polynomials with more numbers prove that those with fewer fail.
-        Verdict::Fails { .. } => {
-            let is_line = trial.region.roughness[0] == trial.region.roughness[1];
-            is_line || trial.cost.weighed(&task.weights) < limit
-        }
-        Verdict::NotFound(_) => trial.cost.weighed(&task.weights) < limit,
-        Verdict::Passes(_) => false,
-    };
-    let trials: Vec<&Trial> = outcome.trials.iter().filter(counts).collect();
-    let includer = |index: usize| {
-        let own = trials[index];
-        let includes = |(place, other): (usize, &&Trial)| {
-            let is_failing = matches!(other.verdict, Verdict::Fails { .. });
-            let is_same = other.region == own.region && other.f0 == own.f0;
-            // Of two of the same shape the first has the proof.
-            let is_back = own.candidate.includes(&other.candidate) && place > index;
-            let includes = other.candidate.includes(&own.candidate);
-            (place != index && is_failing && is_same && includes && !is_back).then_some(place)
-        };
-        trials.iter().enumerate().find_map(includes)
-    };
-    // What includes an entry may be part of another one: the last of them has the proof.
-    let last_includer =
-        |index: usize| std::iter::successors(includer(index), |&other| includer(other)).last();
-    let text = |(index, trial): (usize, &&Trial)| {
-        let mut text = Rejected {
-            candidate: trial.candidate.to_string(),
-            roughness: trial.region.roughness,
-            f0: trial.f0,
-            bound: None,
-            part_of: None,
-            found: None,
-            proof: Vec::new(),
-        };
-        match &trial.verdict {
-            Verdict::Fails { proof, .. } => match last_includer(index) {
-                Some(other) => text.part_of = Some(other),
-                None => {
-                    let claim = Claim {
-                        candidate: &trial.candidate,
-                        region: &trial.region,
-                        tolerance: task.tolerance,
-                    };
-                    let Some((proof, bound)) = claim.shortened(proof, truth) else {
-                        let text = format!("the proof that {} fails is lost", trial.candidate);
-                        return Err(Error::Internal(text));
-                    };
-                    text.bound = Some(bound);
-                    text.proof = proof.iter().map(Multiplier::array).collect();
-                }
-            },
-            Verdict::NotFound(worst) | Verdict::Passes(worst) => {
-                let bound = worst.bound.map_or(0.0, |bound| bound.share);
-                text.found = Some(worst.share.max(bound));
-            }
-        }
-        Ok(text)
-    };
-    trials.par_iter().enumerate().map(text).collect()
 }
 
 impl PlanFile {

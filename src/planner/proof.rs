@@ -10,7 +10,7 @@ use super::candidate::Candidate;
 use super::fit::Multiplier;
 use super::tolerance::Tolerance;
 use super::truth::{Albedo, Truth};
-use crate::approximation::shape::span;
+use crate::approximation::shape::{Net, span};
 use crate::approximation::{Region, Shape};
 
 /// Numbers of a candidate up to this size are excluded where multipliers are orthogonal to its
@@ -43,21 +43,17 @@ impl Claim<'_> {
     /// The functions that are not 0 at a place, by their index, without factors of channels.
     fn functions(&self, nov: f64, roughness: f64) -> Vec<(usize, f64)> {
         let Candidate { shape, counts, .. } = self.candidate;
-        match *shape {
-            Shape::Polynomial { x } => {
-                let x: f64 = x.at(0.0, nov, roughness);
-                powers(x, counts[0].max(counts[1])).into_iter().enumerate().collect()
-            }
-            Shape::Surface { x, y, columns } => {
-                let along = powers(x.at(0.0, nov, roughness), columns);
-                let across = powers(y.of(roughness), counts[0] / columns);
+        let [x, y] = shape.coordinates(self.region, nov, roughness);
+        match (*shape, shape.net()) {
+            (Shape::Surface { columns, .. }, _) => {
+                let (along, across) = (powers(x, columns), powers(y, counts[0] / columns));
                 let rows =
                     across.iter().flat_map(|row| along.iter().map(move |column| row * column));
                 rows.enumerate().collect()
             }
-            Shape::Spline { x, y, size: [columns, rows], degree } => {
-                let along = span(degree, columns, x.at(self.region.least_nov, nov, roughness));
-                let across = span(degree, rows, y.at(self.region, roughness));
+            (_, None) => powers(x, counts[0].max(counts[1])).into_iter().enumerate().collect(),
+            (_, Some(Net { size: [columns, rows], degree })) => {
+                let (along, across) = (span(degree, columns, x), span(degree, rows, y));
                 let taps = degree + 1;
                 (0..taps * taps)
                     .map(|tap| {

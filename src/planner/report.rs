@@ -3,10 +3,10 @@
 use super::bound::Bound;
 use super::candidate::Candidate;
 use super::engines::Engine;
-use super::file::PlanFile;
+use super::file::{PlanFile, Rejected};
 use super::model_errors::{EXACT_FRESNEL, JOINT_TERM, MULTIPLE_SCATTERING, ModelError};
 use super::tolerance::Tolerance;
-use crate::approximation::{Along, Channels, Region, Shape, Storage};
+use crate::approximation::{Along, Channels, Region, Shape, Storage, Texels};
 use crate::error::Result;
 use crate::scene::{Lobe, Scene};
 use serde::Serialize;
@@ -139,6 +139,14 @@ pub fn in_words(candidate: &Candidate) -> String {
             y.word(),
             counts[0] / columns
         ),
+        Shape::Texture { x, y, texels } => {
+            let texels = if texels == Texels::Exact { "integrals at its texels" } else { "fitted" };
+            let (size, axes) = ([x.size(), y.size()], [x.spec(), y.spec()]);
+            format!(
+                "texture of {} x {} over {} and {}, {texels}; {channels}: {bits}",
+                size[0], size[1], axes[0], axes[1]
+            )
+        }
         Shape::Spline { x, y, size: [columns, rows], degree } => {
             let kind = ["bilinear net", "quadratic B-spline", "cubic B-spline"][degree - 1];
             let across = match y.word().as_str() {
@@ -221,7 +229,8 @@ impl Report {
     /// What became of cheaper candidates.
     pub fn cheaper(&self) -> String {
         let rejected = &self.plan.rejected;
-        let not_found = rejected.iter().filter(|entry| entry.found.is_some()).count();
+        let is_open = |entry: &&Rejected| entry.found.is_some() && entry.witness.is_none();
+        let not_found = rejected.iter().filter(is_open).count();
         let failing = rejected.len() - not_found;
         let found = match not_found {
             0 => String::new(),

@@ -4,16 +4,16 @@
 mod lines;
 
 use super::bound::bound;
-use super::candidate::{Candidate, over_roughness};
+use super::candidate::{Candidate, over_roughness, textures};
 use super::cost::{Cost, Weights};
 use super::domain::Domain;
 use super::fit::{Effort, Fit, Multiplier, Problem};
 use super::reach::out_of_reach;
-use super::samples::{BESIDE_THE_LAYER, Sample, Spread, on_grid, samples};
+use super::samples::{BESIDE_THE_LAYER, ON_THE_LAYER, Sample, Spread, on_grid, samples};
 use super::tolerance::Tolerance;
 use super::truth::Truth;
 use super::verify::{self, Worst};
-use crate::approximation::{Approximation, Region, Shape};
+use crate::approximation::{Approximation, Region, Sampler, Shape, Texels};
 use rayon::prelude::*;
 
 /// What is asked for.
@@ -25,6 +25,21 @@ pub struct Task {
     pub tolerance: Tolerance,
     /// What counts.
     pub weights: Weights,
+    /// The texture that a shader reads, where it has to stay as it is.
+    pub sampler: Option<Sampler>,
+}
+
+impl Task {
+    /// Every candidate for all roughnesses of the domain, for a range of F0.
+    pub fn candidates(&self, f0: [f64; 2]) -> Vec<Candidate> {
+        // The axes of a sampler were checked.
+        self.sampler.map_or_else(|| over_roughness(f0), |one| textures(&one).unwrap_or_default())
+    }
+
+    /// Whether the domain has candidates over all its roughnesses: nets need a range of them.
+    pub fn is_over_roughness(&self, region: &Region) -> bool {
+        self.sampler.is_some() || region.roughness[0] < region.roughness[1]
+    }
 }
 
 /// What became of a candidate.
@@ -88,6 +103,12 @@ const ON_A_SURFACE: [Spread; 2] = [Spread::Crowded(33), Spread::Crowded(25)];
 /// Samples in a span of a spline.
 const IN_A_SPAN: [Spread; 2] = [Spread::Crowded(6); 2];
 
+/// Samples between the texels of a texture.
+const IN_A_TEXEL: [Spread; 2] = [Spread::Crowded(3); 2];
+
+/// Places where exact textures are tried first.
+const SCREEN: [Spread; 2] = [Spread::Even(96), Spread::Even(64)];
+
 /// Further samples, in coordinates that do not follow the layer at grazing angles: next to a mirror
 /// those that do are all at n·v near 0 or at 1.
 const BESIDE: [Spread; 2] = [Spread::Crowded(17), Spread::Crowded(13)];
@@ -117,7 +138,8 @@ pub fn search(task: &Task, truth: &Truth) -> Outcome {
     let truth_error = whole.map_or(0.0, |(region, f0)| truth.error(&region, f0, task.tolerance));
     let search = Search { task, truth, truth_error };
     let mut trials = Vec::new();
-    let may_be_lines = task.domain.is_constant() && task.domain.pieces.len() <= MOST_CONSTANTS;
+    let is_constant = task.domain.is_constant() && task.domain.pieces.len() <= MOST_CONSTANTS;
+    let may_be_lines = is_constant && task.sampler.is_none();
     let lines = if may_be_lines { search.lines(&mut trials) } else { None };
     let limit = lines.as_ref().map(|(_, cost)| cost.weighed(&task.weights));
     let chosen = search.over_roughness(limit, &mut trials).or(lines);
@@ -139,22 +161,28 @@ impl Search<'_> {
     /// The cheapest spline or surface over all roughnesses, cheaper than the limit.
     fn over_roughness(&self, limit: Option<f64>, trials: &mut Vec<Trial>) -> Option<Choice> {
         let (region, f0) = self.task.domain.whole()?;
-        if region.roughness[0] == region.roughness[1] {
+        if !self.task.is_over_roughness(&region) {
             return None;
         }
         let weights = &self.task.weights;
         let cost = |candidate: &Candidate| Cost::of(candidate, &region).weighed(weights);
-        let mut candidates = over_roughness(f0);
+        let mut candidates = self.task.candidates(f0);
         candidates.retain(|candidate| limit.is_none_or(|limit| cost(candidate) < limit));
         // The storages of one shape stand side by side: they are tried together, with the cheapest.
         let is_same = |a: &Candidate, b: &Candidate| a.shape == b.shape && a.counts == b.counts;
         let mut queue: Vec<&[Candidate]> = candidates.chunk_by(is_same).collect();
         queue.sort_by(|a, b| cost(&a[0]).total_cmp(&cost(&b[0])));
         let beside = on_grid(self.truth, &region, BESIDE_THE_LAYER, (BESIDE, [1, 1]));
+        // Where exact textures are tried first: most miss the tolerance at one of these.
+        let screen = match self.task.sampler {
+            Some(_) => on_grid(self.truth, &region, ON_THE_LAYER, (SCREEN, [1, 1])),
+            None => Vec::new(),
+        };
         let mut best: Option<(Choice, f64)> = None;
         for (turn, batch) in queue.chunks(AT_A_TIME).enumerate() {
             // A choice with a cost below a limit needs proofs of all that costs less.
-            if turn == TURNS && best.is_none() && limit.is_none() {
+            let may_end = self.task.sampler.is_none() && limit.is_none();
+            if turn == TURNS && best.is_none() && may_end {
                 let largest = out_of_reach(self.task, self.truth, self.truth_error);
                 if let Some(largest) = largest {
                     trials.extend(largest);
@@ -166,6 +194,10 @@ impl Search<'_> {
             }
             let attempts = batch.par_iter().map(|&same| {
                 let spread = match same[0].shape {
+                    Shape::Texture { texels: Texels::Exact, .. } => {
+                        return self.exact(same, region, f0, &screen);
+                    }
+                    Shape::Texture { .. } => IN_A_TEXEL,
                     Shape::Spline { .. } => IN_A_SPAN,
                     _ => ON_A_SURFACE,
                 };
@@ -189,6 +221,36 @@ impl Search<'_> {
             }
         }
         best.map(|(choice, _)| choice)
+    }
+
+    /// Tries textures of integrals, which differ in storage: a place where one errs by more than
+    /// the tolerance is a witness that it fails.
+    fn exact(
+        &self,
+        same: &[Candidate],
+        region: Region,
+        f0: [f64; 2],
+        screen: &[Sample],
+    ) -> Vec<(Trial, Option<Approximation>)> {
+        let mut tried = Vec::new();
+        for candidate in same {
+            let Some(approximation) = candidate.exact(self.truth, region) else { continue };
+            let measure = |places: &[Sample]| {
+                verify::measure(&approximation, f0, self.task.tolerance, places)
+            };
+            let mut worst = measure(screen);
+            if worst.share <= 1.0 {
+                worst = measure(&verify::points(self.truth, &region, &candidate.shape));
+            }
+            let verdict = self.judged(&approximation, f0, worst);
+            let passes = matches!(verdict, Verdict::Passes(_));
+            let approximation = passes.then_some(approximation);
+            tried.push((Trial::new(candidate, region, f0, verdict), approximation));
+            if passes {
+                break;
+            }
+        }
+        tried
     }
 
     fn problem<'b>(

@@ -36,6 +36,11 @@ impl Albedo {
     pub fn at(self, f0: f64) -> f64 {
         self.b + f0 * (self.e - self.b)
     }
+
+    /// A and B.
+    pub fn scale_bias(self) -> [f64; 2] {
+        [self.e - self.b, self.b]
+    }
 }
 
 /// The integrals of a lobe, quickly.
@@ -53,6 +58,9 @@ pub struct Truth {
 
 /// Places along n·v and across roughness where the interpolant is compared with integrals.
 const PLACES: [usize; 2] = [24, 12];
+
+/// Integrals by the reference rule at a time.
+const AT_A_TIME: usize = 256;
 
 /// The rule by which a lobe is integrated, one by one.
 fn fine_rule(lobe: Microfacet) -> &'static Rule {
@@ -143,10 +151,13 @@ impl Truth {
 
     /// The same by the reference rule, integral by integral.
     pub fn by_reference(lobe: Microfacet, places: &[(f64, f64)]) -> Vec<Albedo> {
-        let points: Vec<(f64, f64)> =
-            places.iter().map(|&(nov, roughness)| (nov, alpha_of(roughness))).collect();
-        let field = bake_points(lobe, &points, &REFERENCE);
-        field.scale_bias().iter().map(|value| Albedo { e: value.e(), b: value.b }).collect()
+        let of_some = |places: &[(f64, f64)]| -> Vec<Albedo> {
+            let points: Vec<(f64, f64)> =
+                places.iter().map(|&(nov, roughness)| (nov, alpha_of(roughness))).collect();
+            let field = bake_points(lobe, &points, &REFERENCE);
+            field.scale_bias().iter().map(|value| Albedo { e: value.e(), b: value.b }).collect()
+        };
+        places.par_chunks(AT_A_TIME).flat_map_iter(of_some).collect()
     }
 }
 

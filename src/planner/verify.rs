@@ -27,8 +27,9 @@ pub struct Worst {
     pub bound: Option<Bound>,
 }
 
-/// Points in each span of a spline, along either axis.
-const IN_A_SPAN: Spread = Spread::Even(8);
+/// Points in each span of a spline, and between the texels of a texture, along either axis: what
+/// lies between them is bounded.
+const IN_A_SPAN: [Spread; 2] = [Spread::Even(8), Spread::Even(3)];
 
 /// Points in coordinates that do not follow the layer at grazing angles, along n·v and across
 /// roughness; of a shape without spans as many again in coordinates that do.
@@ -39,22 +40,27 @@ pub fn points(truth: &Truth, region: &Region, shape: &Shape) -> Vec<Sample> {
     points_at(truth, region, shape, IN_A_SPAN, IN_ALL)
 }
 
-/// The same with so many points in each span, or in all.
+/// The same with so many points in each span, between texels, or in all.
 pub fn points_at(
     truth: &Truth,
     region: &Region,
     shape: &Shape,
-    in_a_span: Spread,
+    [in_a_span, between_texels]: [Spread; 2],
     in_all: [Spread; 2],
 ) -> Vec<Sample> {
-    let spread = if let Shape::Spline { .. } = shape { [in_a_span; 2] } else { in_all };
+    let spread = match shape {
+        Shape::Spline { .. } => [in_a_span; 2],
+        Shape::Texture { .. } => [between_texels; 2],
+        Shape::Polynomial { .. } | Shape::Surface { .. } => in_all,
+    };
     let mut points = samples(truth, region, shape, spread);
     points.extend(on_grid(truth, region, BESIDE_THE_LAYER, (in_all, [1, 1])));
     points
 }
 
 /// Measures an approximation at these points, at both ends of a range of F0: the error is linear in
-/// F0, and the tolerance concave, so that nothing between is worse.
+/// F0, and the tolerance concave, so that nothing between is worse. A sampler is as far off as it
+/// may be along either axis: its lookup is linear in that too.
 pub fn measure(
     approximation: &Approximation,
     f0: [f64; 2],
@@ -70,13 +76,19 @@ pub fn measure(
         points: 0,
         bound: None,
     };
+    let [x, y] = approximation.shape.filter();
+    let shifts: &[[f64; 2]] = match x > 0.0 {
+        true => &[[-x, -y], [x, -y], [-x, y], [x, y]],
+        false => &[[0.0; 2]],
+    };
     let of_chunk = |chunk: &[Sample]| {
         let last = chunk.len() - 1;
         let nov = F32x16::gather(|i| chunk[i.min(last)].nov);
         let roughness = F32x16::gather(|i| chunk[i.min(last)].roughness);
         let mut worst = none;
-        for f0 in f0 {
-            let albedo = approximation.albedo(nov, roughness, F32x16::from(f0));
+        let all = f0.iter().flat_map(|f0| shifts.iter().map(move |shift| (*f0, *shift)));
+        for (f0, shift) in all {
+            let albedo = approximation.albedo_beside(nov, roughness, F32x16::from(f0), shift);
             for (i, sample) in chunk.iter().enumerate() {
                 let truth = sample.truth.at(f0);
                 let error = albedo.lane(i) - truth;

@@ -2,9 +2,10 @@
 
 use super::candidate::Candidate;
 use super::tolerance::Tolerance;
-use crate::approximation::{Across, Along, Channels, Shape, Storage};
+use crate::approximation::{Across, Along, Channels, Shape, Storage, Texels};
 use crate::choice::Choice;
 use crate::error::{Error, Result};
+use crate::table::axis::AxisSpec;
 use std::fmt;
 
 /// Most numbers along either side of a candidate that a file may name.
@@ -29,6 +30,11 @@ impl fmt::Display for Candidate {
             Shape::Spline { x, y, size: [columns, rows], degree } => {
                 let (x, y) = (x.word(), y.word());
                 write!(f, "spline degree={degree} size={columns}x{rows} x={x} y={y}")?;
+            }
+            Shape::Texture { x, y, texels } => {
+                let (columns, rows) = (x.size(), y.size());
+                let (x, y) = (x.spec(), y.spec());
+                write!(f, "texture size={columns}x{rows} x={x} y={y} texels={texels}")?;
             }
         }
         write!(f, " storage={storage}")
@@ -69,6 +75,8 @@ impl Candidate {
                 });
                 (x, y, degree) == (other_x, other_y, other_degree) && is_refined
             }
+            // Those of other sizes have other places.
+            (Shape::Texture { .. }, Shape::Texture { .. }) => self.shape == other.shape,
             _ => false,
         };
         self.channels == other.channels && shapes
@@ -79,13 +87,17 @@ fn parse(words: &str) -> Option<Candidate> {
     let mut words = words.split(' ');
     let channels = Channels::named(words.next()?).ok()?;
     let kind = words.next()?;
-    let (mut x, mut y, mut size, mut numbers, mut degree, mut storage) =
-        (None, None, None, None, None, None);
+    let (mut x, mut y, mut size, mut numbers, mut degree, mut storage, mut texels) =
+        (None, None, None, None, None, None, None);
+    let mut axes: [Option<AxisSpec>; 2] = [None; 2];
     for word in words {
         let (key, value) = word.split_once('=')?;
         match key {
+            "x" if kind == "texture" => axes[0] = Some(value.parse().ok()?),
+            "y" if kind == "texture" => axes[1] = Some(value.parse().ok()?),
             "x" => x = Some(Along::named(value).ok()?),
             "y" => y = Some(Across::named(value).ok()?),
+            "texels" => texels = Some(Texels::named(value).ok()?),
             "size" => size = Some(pair(value, 'x')?),
             "numbers" => numbers = Some(pair(value, '+').or_else(|| Some([whole(value)?, 0]))?),
             "degree" => degree = Some(whole(value)?),
@@ -106,6 +118,11 @@ fn parse(words: &str) -> Option<Candidate> {
             let is_good = (1..=3).contains(&degree) && size.iter().all(|&side| side > degree);
             let shape = Shape::Spline { x: x?, y: y?, size, degree };
             is_good.then_some((shape, two(size[0] * size[1])))?
+        }
+        "texture" => {
+            let (size, [x, y]) = (size?, axes);
+            let shape = Shape::texture([x?, y?], size, texels?).ok()?;
+            (shape, two(size[0] * size[1]))
         }
         _ => return None,
     };

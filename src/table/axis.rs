@@ -172,7 +172,12 @@ impl Axis {
 
     /// The parameter at texel `i`.
     pub fn value(&self, i: usize) -> f64 {
-        let i = if self.spec.flip { self.size - 1 - i } else { i } as f64;
+        self.value_at(i as f64)
+    }
+
+    /// The parameter at a place between texels: the inverse of [`Axis::texel`].
+    pub fn value_at(&self, texel: f64) -> f64 {
+        let i = if self.spec.flip { self.size as f64 - 1.0 - texel } else { texel };
         let t = match self.spec.nodes {
             Nodes::Edges => i / (self.size as f64 - 1.0).max(1.0),
             Nodes::Offset(offset) => (i + offset) / self.size as f64,

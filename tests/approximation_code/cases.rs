@@ -230,6 +230,7 @@ pub fn allowed(case: &Case) -> f64 {
     let by_power = case.approximations.iter().any(|one| match one.shape {
         Shape::Polynomial { x } => power(x, None),
         Shape::Surface { x, y, .. } | Shape::Spline { x, y, .. } => power(x, Some(y)),
+        Shape::Texture { .. } => false,
     });
     if by_power { 5e-6 } else { 2e-6 }
 }

@@ -3,7 +3,7 @@
 use super::function::{Function, horner, sum};
 use super::functions::Functions;
 use super::place;
-use crate::approximation::{Across, Shape};
+use crate::approximation::{Across, Along, Shape};
 use crate::lookup::Language;
 
 /// A place in the coordinates of a shape.
@@ -26,6 +26,8 @@ impl Functions<'_> {
         let (x, least) = match self.approximation.shape {
             Shape::Polynomial { x } | Shape::Surface { x, .. } => (x, 0.0),
             Shape::Spline { x, .. } => (x, region.least_nov),
+            // A sampler reads textures: they are refused.
+            Shape::Texture { .. } => (Along::Nov, 0.0),
         };
         let (before, x) = place::along(dialect, x, least, constant);
         lines.extend(before);
@@ -51,6 +53,7 @@ impl Functions<'_> {
                 let row = |b| ("row", vec![self.plus(&k, b * columns), "along".into()]);
                 (0..=degree).map(row).collect()
             }
+            Shape::Texture { .. } => Vec::new(),
         };
         Places { lines, terms }
     }

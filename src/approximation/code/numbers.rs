@@ -41,6 +41,7 @@ impl Functions<'_> {
             Shape::Spline { size: [columns, _], .. } => format!(
                 "Control point {columns} j + i is in column i along n.v and row j across roughness."
             ),
+            Shape::Texture { .. } => "Texels, row by row.".into(),
         });
         let about = self.approximation.channels.about();
         let order = match about.split_once(" and ") {
@@ -76,6 +77,7 @@ impl Functions<'_> {
         let columns = match self.approximation.shape {
             Shape::Polynomial { .. } => self.packing.count,
             Shape::Surface { columns, .. } | Shape::Spline { size: [columns, _], .. } => columns,
+            Shape::Texture { x, .. } => x.size(),
         };
         let bits = columns * self.packing.channels() * self.packing.bits();
         let row = if bits.is_multiple_of(32) { bits / 32 } else { members.len() };

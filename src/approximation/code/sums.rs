@@ -10,7 +10,7 @@ impl Functions<'_> {
     /// The functions that `channels` calls besides `number`.
     pub fn helpers(&self) -> Vec<String> {
         match self.approximation.shape {
-            Shape::Polynomial { .. } => Vec::new(),
+            Shape::Polynomial { .. } | Shape::Texture { .. } => Vec::new(),
             Shape::Surface { columns, .. } => {
                 let dialect = self.dialect;
                 let terms: Vec<String> =

@@ -34,11 +34,12 @@ pub fn write_output(plan: &PlanFile, name: &str, prefix: &str) -> Result<()> {
         command: plan.command.clone(),
     };
     let table = approximation.table(&promise)?;
-    output::write(name, &encode(&table, table_format(name)?)?)
+    let is_texture = plan.question.sampler.is_some();
+    output::write(name, &encode(&table, table_format(name, is_texture)?)?)
 }
 
 /// The format of control points with this name; code is written by --code, and EXR has no codes.
-pub fn table_format(name: &str) -> Result<&'static Format> {
+pub fn table_format(name: &str, is_texture: bool) -> Result<&'static Format> {
     let format = Format::of_file(name)?;
     let refused = |cure: &str| {
         let expected = ".png, .ktx2, .dds, .npy, .raw, .js, .ts or .txt";
@@ -48,7 +49,7 @@ pub fn table_format(name: &str) -> Result<&'static Format> {
         return refused("write code with --code");
     }
     // Control points are codes of 8 or 16 bits.
-    if !format.precisions().contains(&Precision::Unorm16) {
+    if !is_texture && !format.precisions().contains(&Precision::Unorm16) {
         return refused("name a format that stores whole numbers");
     }
     Ok(format)

@@ -129,6 +129,18 @@ impl Jet {
         Jet { value, ..self }
     }
 
+    /// The function kept between these; where it is not, it does not change.
+    pub fn clamped(self, low: f64, high: f64) -> Self {
+        let Interval { low: least, high: largest } = self.value;
+        let is_free = low <= least && largest <= high;
+        let or_zero = |range: Interval| Interval::hull([range.low, range.high, 0.0]);
+        let all = self.within(low, high);
+        match is_free {
+            true => all,
+            false => Jet { first: or_zero(all.first), second: or_zero(all.second), ..all },
+        }
+    }
+
     /// The same function, of which both know something.
     pub fn and(self, other: Self) -> Self {
         Jet {

@@ -44,7 +44,25 @@ impl Pieces {
             Shape::Polynomial { .. } => polynomial(numbers, numbers.len(), x, y),
             Shape::Surface { columns, .. } => polynomial(numbers, columns, x, y),
             Shape::Spline { size, degree, .. } => spline(numbers, size, degree, [x, y]),
+            Shape::Texture { x: columns, y: rows, .. } => {
+                let size = [columns.size(), rows.size()];
+                spline(numbers, size, 1, [x, y]).clamped([x, y])
+            }
         }
+    }
+
+    /// The same of a sampler that clamps coordinates: where it begins to, the slope jumps to 0.
+    fn clamped(self, places: [Interval; 2]) -> Self {
+        let kink = |axis: usize| match places[axis].low <= 0.0 || places[axis].high >= 1.0 {
+            true => self.kinks[axis].max(self.first[axis].size()),
+            false => self.kinks[axis],
+        };
+        Pieces { kinks: [kink(0), kink(1)], ..self }
+    }
+
+    /// By how much a lookup changes where its coordinates are so far off.
+    pub fn moved(&self, by: [f64; 2]) -> f64 {
+        self.first[0].size() * by[0] + self.first[1].size() * by[1]
     }
 
     /// Along a line, on which the coordinates change so.

@@ -11,6 +11,7 @@
 use super::interval::{Interval, Jet};
 use crate::approximation::{Across, Along, Region, Shape};
 use crate::integrate::interpolant::SMOOTHEST;
+use crate::table::axis::{Axis, Mapping, Parameter};
 
 /// Which variable changes along a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -177,6 +178,24 @@ impl<'a> Coordinates<'a> {
             Shape::Polynomial { x } => (x, zero),
             Shape::Surface { x, y, .. } => (x, power(y, root)),
             Shape::Spline { x, y, .. } => (x, across(y, self.region, root)),
+            Shape::Texture { x, y, .. } => {
+                let p = match x.spec().mapping {
+                    Mapping::Linear => counted.whole() * alpha,
+                    Mapping::Sqrt => counted.sqrt() * root.square(),
+                    Mapping::SqrtComplement => (nov * -1.0 + 1.0).sqrt(),
+                };
+                let parameter = match y.spec().parameter {
+                    Parameter::Alpha => alpha,
+                    _ => root.square(),
+                };
+                let q = match y.spec().mapping {
+                    Mapping::Linear => parameter,
+                    Mapping::Sqrt => parameter.sqrt(),
+                    Mapping::SqrtComplement => (parameter * -1.0 + 1.0).sqrt(),
+                };
+                let (along, across) = (texel(&x, p), texel(&y, q));
+                return Place { s, t, nov, along, across };
+            }
         };
         let along = along(x, counted, alpha).within(0.0, 1.0);
         Place { s, t, nov, along, across }
@@ -249,6 +268,13 @@ fn along(x: Along, slope: Factored, alpha: Jet) -> Jet {
     }
 }
 
+/// The place among the texels of an axis, from 0 to 1 and clamped there, of a mapped parameter.
+fn texel(axis: &Axis, mapped: Jet) -> Jet {
+    let last = (axis.size() - 1) as f64;
+    let (scale, shift) = axis.texels();
+    (mapped * (scale / last) + shift / last).clamped(0.0, 1.0)
+}
+
 /// [`Across::at`] of a spline, where `root` is √r.
 fn across(y: Across, region: &Region, root: Jet) -> Jet {
     let [low, high] = region.roughness.map(|end| y.of::<f64>(end));
@@ -265,8 +291,10 @@ fn power(y: Across, root: Jet) -> Jet {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
+    use crate::approximation::Texels;
 
     /// Value and derivatives of f at x by differences of fourth order.
     fn differences(x: f64, f: impl Fn(f64) -> f64) -> [f64; 3] {
@@ -284,6 +312,10 @@ mod tests {
         let layer = Along::Layer(3.0);
         let spline = |x, y| Shape::Spline { x, y, size: [7, 9], degree: 3 };
         let surface = |x, y| Shape::Surface { x, y, columns: 4 };
+        let texture = |x: &str, y: &str| {
+            let axis = |words: &str| Axis::new(words.parse().unwrap(), 16).unwrap();
+            Shape::Texture { x: axis(x), y: axis(y), texels: Texels::Exact }
+        };
         let shapes = [
             (spline(layer, Across::Sqrt), 1e-3),
             (spline(layer, Across::Linear), 0.0),
@@ -291,6 +323,8 @@ mod tests {
             (spline(Along::Nov, Across::Linear), 1e-3),
             (surface(Along::Cbrt, Across::Linear), 1e-3),
             (surface(layer, Across::Sqrt), 0.0),
+            (texture("nov,sqrt,edges", "alpha,sqrt,edges,flip"), 1e-3),
+            (texture("nov,edges", "roughness,edges"), 0.0),
         ];
         let places = [[0.03, 0.25], [0.1, 0.9], [0.5, 0.4], [0.8, 0.6], [0.97, 0.3]];
         for ((shape, least_nov), [u, t]) in
@@ -302,13 +336,7 @@ mod tests {
             let at = |u: f64, t: f64| {
                 let roughness = coordinates.roughness(t);
                 let nov = coordinates.row(roughness).nov(u);
-                let (along, across) = match shape {
-                    Shape::Spline { x, y, .. } => {
-                        (x.at(least_nov, nov, roughness), y.at(&region, roughness))
-                    }
-                    Shape::Surface { x, y, .. } => (x.at(0.0, nov, roughness), y.of(roughness)),
-                    Shape::Polynomial { x } => (x.at(0.0, nov, roughness), 0.0),
-                };
+                let [along, across] = shape.coordinates(&region, nov, roughness);
                 [nov, along, across]
             };
             for direction in [Direction::Nov, Direction::Roughness] {

@@ -1,6 +1,7 @@
 //! What single precision adds to the error of a lookup at the most, by counting its roundings
 //! (Higham 2002, chapters 3 and 5).
 
+use crate::approximation::shape::Net;
 use crate::approximation::{Across, Approximation, Numbers, Region, Shape};
 
 /// Half a unit in the last place of a float.
@@ -26,7 +27,8 @@ pub fn rounding(approximation: &Approximation) -> f64 {
         match *shape {
             Shape::Polynomial { .. } => powers(&sizes, sizes.len().max(1)),
             Shape::Surface { columns, .. } => powers(&sizes, columns),
-            Shape::Spline { size, degree, y, .. } => {
+            Shape::Spline { .. } | Shape::Texture { .. } => {
+                let Some(Net { size, degree }) = shape.net() else { return 0.0 };
                 let spans = size.map(|count| (count - degree) as f64);
                 let slope = |step: usize, is_inside: &dyn Fn(usize) -> bool| {
                     let pairs = (0..sizes.len().saturating_sub(step)).filter(|&i| is_inside(i));
@@ -36,7 +38,11 @@ pub fn rounding(approximation: &Approximation) -> f64 {
                 };
                 let along = slope(1, &|i| (i + 1) % size[0] != 0) * spans[0];
                 let across = slope(size[0], &|_| true) * spans[1];
-                let shares = along * COORDINATE + across * across_roundings(y, region);
+                let roundings = match *shape {
+                    Shape::Spline { y, .. } => across_roundings(y, region),
+                    _ => COORDINATE,
+                };
+                let shares = along * COORDINATE + across * roundings;
                 largest * (NET + FACTORS) + shares
             }
         }

@@ -1,8 +1,7 @@
 //! The system of weighted least squares of a problem.
 
 use super::{Problem, Row};
-use crate::approximation::Shape;
-use crate::approximation::shape::span;
+use crate::approximation::shape::{Net, span};
 use crate::planner::banded::Banded;
 use crate::planner::chebyshev::Chebyshev;
 
@@ -35,8 +34,8 @@ impl Functions {
     pub fn new(problem: &Problem) -> Self {
         let Problem { region, shape, counts, samples, .. } = problem;
         let channels = problem.channels.count();
-        match *shape {
-            Shape::Polynomial { .. } | Shape::Surface { .. } => {
+        match shape.net() {
+            None => {
                 let width = counts[0].max(counts[1]);
                 let basis = Chebyshev::of(shape, region, width);
                 let values = samples.iter().flat_map(|sample| basis.at(sample)).collect();
@@ -48,7 +47,7 @@ impl Functions {
                     band: size,
                 }
             }
-            Shape::Spline { x, y, size: [columns, rows], degree } => {
+            Some(Net { size: [columns, rows], degree }) => {
                 // Neighbours along the shorter side stand side by side: the band is narrower.
                 let is_wide = columns > rows;
                 let order = (0..columns * rows)
@@ -61,9 +60,9 @@ impl Functions {
                 let offsets =
                     (0..taps * taps).map(|tap| tap / taps * columns + tap % taps).collect();
                 let spans = samples.iter().map(|sample| {
-                    let place = x.at(region.least_nov, sample.nov, sample.roughness);
-                    let along = span(degree, columns, place);
-                    let across = span(degree, rows, y.at(region, sample.roughness));
+                    let [x, y] = shape.coordinates(region, sample.nov, sample.roughness);
+                    let along = span(degree, columns, x);
+                    let across = span(degree, rows, y);
                     let mut weights = [0.0; 16];
                     for (tap, weight) in weights.iter_mut().enumerate().take(taps * taps) {
                         *weight = across.weights[tap / taps] * along.weights[tap % taps];

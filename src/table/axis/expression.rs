@@ -5,7 +5,7 @@ use super::{Axis, Mapping, Nodes, Parameter};
 
 impl Axis {
     /// The factor and the shift that carry t to the fractional texel.
-    fn texels(&self) -> (f64, f64) {
+    pub fn texels(&self) -> (f64, f64) {
         let n = self.size as f64;
         let (scale, offset) = match self.spec.nodes {
             Nodes::Edges => ((n - 1.0).max(1.0), 0.0),

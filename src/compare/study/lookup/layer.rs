@@ -175,6 +175,7 @@ fn net(judge: &Judge, truth: &Truth, tolerance: f64, domain: Where) -> Result<Op
         domain: domain::Domain { least_nov: nov, pieces: vec![piece] },
         tolerance: Tolerance::Absolute(tolerance),
         weights: Weights::default(),
+        sampler: None,
     };
     let outcome = search(&task, truth);
     let [(net, _)] = &*outcome.choice else { return Ok(None) };
