@@ -7,7 +7,7 @@ mod program;
 
 use common::Random;
 use program::{ok, run, stderr};
-use splitsum::approximation::Shape;
+use splitsum::approximation::{Shape, Storage, Texels};
 use splitsum::backend::cpu::bake_points;
 use splitsum::brdf::{Microfacet, Ndf};
 use splitsum::integrate::rules::D10240;
@@ -110,4 +110,49 @@ fn a_texture_of_integrals_has_the_integrals() {
             assert!((own - baked).abs() <= step, "{index}, {channel}: {own} and {baked}");
         }
     }
+}
+
+#[test]
+fn a_check_holds_a_plan_to_its_question() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("a.toml");
+    let axes = "--texture be --x nov,sqrt,edges --y roughness,edges --storage f16";
+    for roughness in ["0.5", "0.3..1"] {
+        ok(&folder, &format!("plan --roughness {roughness} --tolerance 0.004 {axes} -o a.toml"));
+        ok(&folder, "plan --check a.toml");
+    }
+    let good: PlanFile = toml::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
+    let refused = |change: &dyn Fn(&mut PlanFile), code: i32, words: &str| {
+        let mut plan = good.clone();
+        change(&mut plan);
+        std::fs::write(&path, toml::to_string(&plan).unwrap()).unwrap();
+        let output = run(&folder, "plan --check a.toml");
+        assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
+        assert!(stderr(&output).contains(words), "{}", stderr(&output));
+    };
+    let exact = good.rejected.iter().position(|entry| entry.witness.is_some()).unwrap();
+    for place in [[f64::NAN, 0.5, 0.5], [0.5, 0.0, 0.5], [0.5, 0.5, 1.5]] {
+        refused(&|plan| plan.rejected[exact].witness = Some(place), 7, "outside of its region");
+    }
+    refused(&|plan| plan.choice[0].bound = None, 7, "the bound of the error is missing");
+    let integrals = |plan: &mut PlanFile| {
+        plan.nodes = Texels::Exact;
+        let choice = &mut plan.choice[0];
+        choice.candidate = choice.candidate.replace("texels=fitted", "texels=exact");
+    };
+    refused(&integrals, 7, "is not the integral");
+    refused(&|plan| plan.nodes = Texels::Exact, 7, "what was asked for");
+    let other = |plan: &mut PlanFile| {
+        plan.question.sampler.as_mut().unwrap().axes[0] = "nov".into();
+    };
+    refused(&other, 7, "what was asked for");
+    let floats = |plan: &mut PlanFile| {
+        plan.question.sampler.as_mut().unwrap().storage = Some(Storage::F32);
+    };
+    refused(&floats, 4, "f16, unorm16 or unorm8");
+    let empty = |plan: &mut PlanFile| {
+        plan.rejected[exact].candidate =
+            "energy-rest surface size=0x5 x=sqrt y=sqrt storage=f32".into();
+    };
+    refused(&empty, 4, "the words of a candidate");
 }

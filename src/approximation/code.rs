@@ -94,6 +94,10 @@ impl Code<'_> {
             return Err(refused("approximations", "one or several", "none"));
         }
         self.approximations.iter().try_for_each(check)?;
+        if self.approximations.iter().any(|one| matches!(one.shape, Shape::Texture { .. })) {
+            let cure = "write the texture with --table, and its lookup with splitsum lookup";
+            return Err(Error::bad_input("code", "numbers that stand in it", "a texture", cure));
+        }
         let is_line = |one: &Approximation| matches!(one.shape, Shape::Polynomial { .. });
         if self.approximations.len() > 1 && !self.approximations.iter().all(is_line) {
             return Err(refused("approximations", "polynomials of constant roughness", "others"));
@@ -202,14 +206,6 @@ pub fn check(approximation: &Approximation) -> Result<()> {
     }
     let lengths = || numbers.iter().filter(|numbers| !numbers.is_empty()).map(Numbers::len);
     let longest = lengths().max().unwrap_or(0);
-    if let Shape::Texture { .. } = shape {
-        return Err(Error::bad_input(
-            "code",
-            "numbers that stand in it",
-            "a texture",
-            "write the texture with --table, and its lookup with splitsum lookup",
-        ));
-    }
     let fits = match *shape {
         Shape::Polynomial { .. } => low == high,
         Shape::Surface { columns, .. } => {
@@ -221,7 +217,7 @@ pub fn check(approximation: &Approximation) -> Result<()> {
             let is_spline = (1..=3).contains(&degree) && columns.min(rows) > degree && low < high;
             is_spline && lengths().all(|length| length == columns * rows)
         }
-        Shape::Texture { .. } => false,
+        Shape::Texture { x, y, .. } => lengths().all(|length| length == x.size() * y.size()),
     };
     let finite = |numbers: &Numbers| match numbers {
         Numbers::Floats(floats) | Numbers::Halves(floats) => {

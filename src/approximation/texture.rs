@@ -4,7 +4,7 @@ use super::{Channels, Shape, Storage};
 use crate::choice::choice;
 use crate::error::{Error, Result};
 use crate::numeric::lanes::Real;
-use crate::table::axis::{Axis, AxisSpec, Parameter};
+use crate::table::axis::{Axis, AxisSpec, Mapping, Parameter};
 
 /// The texels of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +39,10 @@ impl Sampler {
             let expected = "scale-bias or bias-energy";
             return Err(Error::bad_input("channels", expected, channels.to_string(), cure));
         }
+        if storage == Some(Storage::F32) {
+            let cure = "name one of them";
+            return Err(Error::bad_input("storage", "f16, unorm16 or unorm8", "f32", cure));
+        }
         // Any size: the axes are checked.
         Shape::texture(axes, [2, 2], Texels::Exact)?;
         Ok(Sampler { channels, axes, storage })
@@ -61,9 +65,13 @@ impl Shape {
         if !matches!(y.parameter, Parameter::Roughness | Parameter::Alpha) {
             return wrong("y", "an axis of roughness or alpha", format!("'{y}'"));
         }
-        let is_plain = |axis: AxisSpec| axis.clamp && axis.min == 0.0 && axis.max == f64::INFINITY;
+        let is_plain = |axis: AxisSpec| {
+            let is_smooth = axis.mapping != Mapping::SqrtComplement;
+            axis.clamp && axis.min == 0.0 && axis.max == f64::INFINITY && is_smooth
+        };
         if !is_plain(x) || !is_plain(y) {
-            return wrong("axis", "neither unclamped, min nor max", format!("'{x}' and '{y}'"));
+            let expected = "neither unclamped, min, max nor sqrt-complement";
+            return wrong("axis", expected, format!("'{x}' and '{y}'"));
         }
         if size.iter().any(|&side| side < 2) {
             return wrong("size", "two texels or more", format!("{} x {}", size[0], size[1]));

@@ -309,7 +309,11 @@ impl Question<'_> {
                 .map(|f0| self.approximation.albedo(nov, F64x8::from(roughness), F64x8::from(f0)));
             for i in 0..count {
                 let truth = truths[first + i];
-                let error = |end: usize| (lookups[end].lane(i) - truth.at(self.f0[end])).abs();
+                let error = |end: usize| {
+                    let error = (lookups[end].lane(i) - truth.at(self.f0[end])).abs();
+                    // The largest of some numbers skips what is none.
+                    if error.is_nan() { f64::INFINITY } else { error }
+                };
                 let (nov, s) = (novs[first + i], row.s(places[first + i]));
                 points.push(Point { s, nov, truth, errors: [error(0), error(1)] });
             }

@@ -2,7 +2,9 @@
 
 use super::chebyshev::Chebyshev;
 use super::fit::Fit;
+use super::samples::Sample;
 use super::truth::{Albedo, Truth};
+use crate::approximation::shape::{Net, span};
 use crate::approximation::{
     Across, Along, Approximation, Channels, Numbers, Region, Sampler, Shape, Storage, Texels,
 };
@@ -58,7 +60,16 @@ impl Candidate {
 
     /// The texture whose texels are integrals; none of other shapes.
     pub fn exact(&self, truth: &Truth, region: Region) -> Option<Approximation> {
-        let Shape::Texture { x, y, texels: Texels::Exact } = self.shape else { return None };
+        let Shape::Texture { texels: Texels::Exact, .. } = self.shape else { return None };
+        let numbers = self.integrals(truth)?;
+        let numbers = numbers.iter().map(|texels| self.storage.store_texels(texels)).collect();
+        let Candidate { channels, shape, .. } = *self;
+        Some(Approximation { lobe: truth.lobe(), region, channels, shape, numbers })
+    }
+
+    /// The integrals at the texels of a texture, for each channel; none of other shapes.
+    fn integrals(&self, truth: &Truth) -> Option<Vec<Vec<f64>>> {
+        let Shape::Texture { x, y, .. } = self.shape else { return None };
         let novs = x.values();
         let row = |&value: &f64| {
             let is_alpha = y.spec().parameter == Parameter::Alpha;
@@ -71,11 +82,30 @@ impl Candidate {
                 Channels::BiasEnergy => [albedo.b, albedo.e][channel],
                 _ => albedo.scale_bias()[channel],
             };
-            self.storage.store_texels(&integrals.iter().map(of).collect::<Vec<f64>>())
+            integrals.iter().map(of).collect()
         };
-        let numbers = (0..self.channels.count()).map(numbers).collect();
-        let (channels, shape, lobe) = (self.channels, self.shape, truth.lobe());
-        Some(Approximation { lobe, region, channels, shape, numbers })
+        Some((0..self.channels.count()).map(numbers).collect())
+    }
+
+    /// Puts integrals into the texels of a fit that no sample sees: a sampler reads a little of
+    /// them at the edges of a region.
+    pub fn fill(&self, fit: &mut Fit, truth: &Truth, region: &Region, samples: &[Sample]) {
+        let Some(Net { size: [columns, rows], degree }) = self.shape.net() else { return };
+        let Some(integrals) = self.integrals(truth) else { return };
+        let mut seen = vec![false; columns * rows];
+        for sample in samples {
+            let [x, y] = self.shape.coordinates(region, sample.nov, sample.roughness);
+            let (along, across) = (span(degree, columns, x), span(degree, rows, y));
+            for tap in 0..4 {
+                let weight = along.weights[tap % 2] * across.weights[tap / 2];
+                let texel = (across.first + tap / 2) * columns + along.first + tap % 2;
+                seen[texel] |= weight > SEEN;
+            }
+        }
+        for (numbers, integrals) in fit.numbers.iter_mut().zip(&integrals) {
+            let unseen = numbers.iter_mut().zip(integrals).zip(&seen).filter(|(_, seen)| !**seen);
+            unseen.for_each(|((number, integral), _)| *number = *integral);
+        }
     }
 
     /// The candidate that an approximation was.
@@ -92,6 +122,9 @@ impl Candidate {
         [Storage::F16, Storage::F32].map(|storage| Candidate { channels, shape, counts, storage })
     }
 }
+
+/// A weight above which a sample sees a texel: those with less are nearly free.
+const SEEN: f64 = 0.02;
 
 /// Texels along either side of a texture.
 const SIDES: [usize; 11] = [8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256];

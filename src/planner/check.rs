@@ -9,11 +9,11 @@ use super::file::{Chosen, PlanFile, Rejected};
 use super::fit::Multiplier;
 use super::proof::Claim;
 use super::samples::{Sample, Spread};
-use super::search::{MOST_POWERS, Task};
+use super::search::{MOST_POWERS, PASSES, Task};
 use super::tolerance::Tolerance;
 use super::truth::Truth;
 use super::verify::{self, Worst};
-use crate::approximation::{Approximation, Region};
+use crate::approximation::{Approximation, Region, Shape, Texels};
 use crate::error::{Error, Result};
 use rayon::prelude::*;
 
@@ -54,6 +54,7 @@ fn failed<T>(text: String) -> Result<T> {
 pub fn check(file: &PlanFile) -> Result<Checked> {
     let (task, lobe) = file.task()?;
     task.domain.pieces.iter().try_for_each(|piece| part_for(file, piece).map(drop))?;
+    answers(file, &task)?;
     let truth = Truth::new(lobe);
     let worst = file
         .choice
@@ -90,6 +91,38 @@ pub fn part_for(file: &PlanFile, piece: &Piece) -> Result<usize> {
     file.choice.iter().position(holds).map_or_else(none, Ok)
 }
 
+/// Whether the choice is one for the whole domain, or one for each piece, of what was asked for.
+fn answers(file: &PlanFile, task: &Task) -> Result<()> {
+    let whole = task.domain.whole();
+    let parts: Vec<([f64; 2], [f64; 2])> =
+        file.choice.iter().map(|chosen| (chosen.roughness, chosen.f0)).collect();
+    let pieces: Vec<([f64; 2], [f64; 2])> =
+        task.domain.pieces.iter().map(|piece| (piece.roughness, piece.f0)).collect();
+    let is_whole = whole.is_some_and(|(region, f0)| parts == [(region.roughness, f0)]);
+    if !is_whole && parts != pieces {
+        return failed("the choice is neither for the whole domain nor for each piece".into());
+    }
+    for chosen in &file.choice {
+        let own = Candidate::named(&chosen.candidate)?;
+        let texels = match own.shape {
+            Shape::Texture { texels, .. } => texels,
+            _ => Texels::Fitted,
+        };
+        let is_asked = task.sampler.is_none() || task.candidates(chosen.f0).contains(&own);
+        if file.nodes != texels || !is_asked {
+            return failed(format!("{own} is not what was asked for, or not {}", file.nodes));
+        }
+    }
+    Ok(())
+}
+
+/// Whether texels that are said to be integrals are those.
+fn has_integrals(approximation: &Approximation, truth: &Truth) -> bool {
+    let own = Candidate::of(approximation);
+    own.exact(truth, approximation.region)
+        .is_none_or(|exact| exact.numbers == approximation.numbers)
+}
+
 /// The largest error of a part of the choice.
 fn measured(chosen: &Chosen, task: &Task, truth: &Truth) -> Result<Worst> {
     let approximation = chosen.checked(task, truth.lobe())?;
@@ -102,7 +135,16 @@ fn measured(chosen: &Chosen, task: &Task, truth: &Truth) -> Result<Worst> {
             worst.share
         ));
     }
-    let Some(stated) = chosen.bound else { return Ok(worst) };
+    if !has_integrals(&approximation, truth) {
+        return failed("a texel is not the integral at its place".into());
+    }
+    let Some(stated) = chosen.bound else {
+        let own = bound(&approximation, chosen.f0, task.tolerance, chosen.worst, truth);
+        return match own {
+            None if worst.share <= PASSES * ROUNDED => Ok(worst),
+            _ => failed("the bound of the error is missing".into()),
+        };
+    };
     match bound(&approximation, chosen.f0, task.tolerance, chosen.worst, truth) {
         Some(own) if own.share <= stated.share.min(1.0) * ROUNDED && own.from <= stated.from => {
             Ok(Worst { bound: Some(own), ..worst })
@@ -200,6 +242,12 @@ fn witnessed(
     truth: &Truth,
 ) -> Result<usize> {
     let region = Region::new(task.domain.least_nov, rejected.roughness);
+    let is_inside = (region.least_nov..=1.0).contains(&nov)
+        && (region.roughness[0]..=region.roughness[1]).contains(&roughness)
+        && (rejected.f0[0]..=rejected.f0[1]).contains(&f0);
+    if !is_inside {
+        return failed(format!("{candidate}: its witness lies outside of its region"));
+    }
     let own = Truth::by_reference(truth.lobe(), &[(nov, roughness)])[0];
     let sample = Sample { nov, roughness, truth: own };
     let worst = candidate
@@ -242,13 +290,14 @@ fn is_complete(file: &PlanFile, task: &Task) -> Result<()> {
     // One choice for several pieces is one over all roughnesses.
     let pieces = file.choice.iter().zip(&task.domain.pieces);
     let lines = pieces.filter(|(chosen, piece)| {
-        chosen.roughness == piece.roughness && piece.roughness[0] == piece.roughness[1]
+        let is_line = piece.roughness[0] == piece.roughness[1] && task.sampler.is_none();
+        chosen.roughness == piece.roughness && is_line
     });
     for (chosen, piece) in lines {
         let region = task.domain.region_of(piece);
         let limit = chosen.cost(task.domain.least_nov)?.weighed(&task.weights);
         let own: Vec<&(Candidate, &Rejected)> =
-            rejected.iter().filter(|(_, entry)| entry.roughness == piece.roughness).collect();
+            rejected.iter().filter(|(_, entry)| is_of(entry, piece)).collect();
         let covers = |(other, entry): &&(Candidate, &Rejected), candidate: &Candidate| {
             // Numbers that were not found say nothing of another storage.
             let is_same_storage = other.storage == candidate.storage;
@@ -262,6 +311,11 @@ fn is_complete(file: &PlanFile, task: &Task) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// Whether an entry is about a piece.
+fn is_of(entry: &Rejected, piece: &Piece) -> bool {
+    entry.roughness == piece.roughness && entry.f0 == piece.f0
 }
 
 /// Every polynomial in n·v for a range of F0.

@@ -95,6 +95,13 @@ pub struct Effort {
 /// The largest error over its bound where a fit can be hardly better.
 const NEAR: f64 = 1.005;
 
+impl Fit {
+    /// Whether other numbers are hardly better.
+    pub fn is_finished(&self) -> bool {
+        self.error <= NEAR * self.bound
+    }
+}
+
 impl Problem<'_> {
     /// Fits the numbers. None where the system has no solution in f64.
     pub fn fit(&self, effort: Effort) -> Option<Fit> {
@@ -126,8 +133,8 @@ impl Problem<'_> {
                     best.proof = self.multipliers(&rows, ends, &weights, &errors);
                 }
             }
-            let is_best = best.error <= NEAR * best.bound;
-            let is_decided = best.bound > effort.fails || best.error <= effort.enough || is_best;
+            let is_enough = best.error <= effort.enough || best.is_finished();
+            let is_decided = best.bound > effort.fails || is_enough;
             fit = Some(best);
             if is_decided {
                 break;

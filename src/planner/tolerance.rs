@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 pub enum Tolerance {
     /// The same everywhere.
     Absolute(f64),
-    /// A share of E(F0), which counts as at least 0.001: E(0) has zeros.
+    /// A share of E(F0) + 0.001: E(0) has zeros.
     Relative(f64),
     /// Steps of 8-bit sRGB in the radiance that is seen.
     Srgb {
@@ -20,12 +20,20 @@ pub enum Tolerance {
     },
 }
 
-/// The least albedo that a share is taken of: three steps of 8-bit sRGB in the dark.
+/// Added to the albedo that a share is taken of: three steps of 8-bit sRGB in the dark.
 const LEAST: f64 = 1e-3;
 
-/// The derivative of the code of sRGB, from 0 to 1, by linear light (IEC 61966-2-1).
-fn srgb_slope(linear: f64) -> f64 {
-    if linear <= 0.003_130_8 { 12.92 } else { 1.055 / 2.4 * linear.powf(1.0 / 2.4 - 1.0) }
+/// Where the line through the step of sRGB at 0 touches the curve of its steps:
+/// (1.055/12.92)^(12/7).
+const TOUCHES: f64 = 0.013_640_8;
+
+/// A step of 1 in the code of sRGB, from 0 to 1, in linear light (IEC 61966-2-1), and the largest
+/// concave function below it: a step is the same up to linear light 0.003, and larger from there on.
+fn srgb_step(linear: f64) -> f64 {
+    match linear < TOUCHES {
+        true => (1.0 + 1.4 * linear / TOUCHES) / 12.92,
+        false => 2.4 / 1.055 * linear.powf(1.0 - 1.0 / 2.4),
+    }
 }
 
 impl Tolerance {
@@ -48,15 +56,16 @@ impl Tolerance {
         Err(Error::bad_input("tolerance", expected, self.to_string(), "give one in that range"))
     }
 
-    /// The tolerance where E(F0) has this value.
+    /// The tolerance where E(F0) has this value: concave in it, so that an error which is linear in
+    /// F0 is within it where it is so at both ends.
     pub fn at(self, albedo: f64) -> f64 {
         match self {
             Tolerance::Absolute(error) => error,
-            Tolerance::Relative(share) => share * albedo.max(LEAST),
+            Tolerance::Relative(share) => share * (albedo + LEAST),
             Tolerance::Srgb { steps, radiance, diffuse } => {
                 // What is brighter than white is shown as white: its steps are those at white.
                 let seen = (radiance * (albedo + diffuse)).min(1.0);
-                steps / (255.0 * srgb_slope(seen)) / radiance
+                steps / 255.0 * srgb_step(seen) / radiance
             }
         }
     }

@@ -27,6 +27,14 @@ pub struct Worst {
     pub bound: Option<Bound>,
 }
 
+impl Worst {
+    /// Of numbers that were not found.
+    pub fn unknown(f0: f64) -> Self {
+        let share = f64::INFINITY;
+        Worst { share, error: share, nov: 1.0, roughness: 1.0, f0, points: 0, bound: None }
+    }
+}
+
 /// Points in each span of a spline, and between the texels of a texture, along either axis: what
 /// lies between them is bounded.
 const IN_A_SPAN: [Spread; 2] = [Spread::Even(8), Spread::Even(3)];

@@ -111,7 +111,7 @@ fn parse(words: &str) -> Option<Candidate> {
         "surface" => {
             let [columns, rows] = size?;
             let shape = Shape::Surface { x: x?, y: y?, columns };
-            (shape, two(columns.max(1) * rows))
+            (columns > 0 && rows > 0).then_some((shape, two(columns * rows)))?
         }
         "spline" => {
             let (size, degree) = (size?, degree?);

@@ -40,7 +40,8 @@ impl Interval {
 
     /// The largest size.
     pub fn size(self) -> f64 {
-        self.low.abs().max(self.high.abs())
+        let size = self.low.abs().max(self.high.abs());
+        if (self.low + self.high).is_nan() { f64::INFINITY } else { size }
     }
 
     /// What both hold.

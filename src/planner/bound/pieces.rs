@@ -46,7 +46,10 @@ impl Pieces {
             Shape::Spline { size, degree, .. } => spline(numbers, size, degree, [x, y]),
             Shape::Texture { x: columns, y: rows, .. } => {
                 let size = [columns.size(), rows.size()];
-                spline(numbers, size, 1, [x, y]).clamped([x, y])
+                // A sampler reads beside a place too.
+                let [by, across] = shape.filter();
+                let places = [x.widened(by), y.widened(across)];
+                spline(numbers, size, 1, places).clamped(places)
             }
         }
     }
@@ -79,11 +82,12 @@ impl Pieces {
     }
 
     /// By how much a line between the ends of a step can be off because of the jumps at the knots
-    /// in it: a quarter of the step times each jump.
+    /// in it: a quarter of the step times each jump; half of it where the coordinate may turn.
     pub fn kinks(&self, x: Jet, y: Jet, step: f64) -> f64 {
         let of = |axis: usize, coordinate: Jet| {
             let speed = coordinate.first.size();
-            let crossed = (speed * step * self.knots[axis]).ceil();
+            let turns = coordinate.first.low < 0.0 && coordinate.first.high > 0.0;
+            let crossed = (speed * step * self.knots[axis]).ceil() * if turns { 2.0 } else { 1.0 };
             if self.kinks[axis] == 0.0 { 0.0 } else { crossed * self.kinks[axis] * speed }
         };
         0.25 * step * (of(0, x) + of(1, y))

@@ -13,10 +13,10 @@ const UNIT: f64 = 1.0 / 16_777_216.0;
 const COORDINATE: f64 = 12.0;
 
 /// Roundings of the weights of control points, and of the sums over them.
-const NET: f64 = 24.0;
+const NET: f64 = 32.0;
 
 /// Roundings of the factors of channels in E(F0), and of their sum.
-const FACTORS: f64 = 12.0;
+const FACTORS: f64 = 16.0;
 
 /// The largest difference between E(F0) in floats and without rounding.
 pub fn rounding(approximation: &Approximation) -> f64 {

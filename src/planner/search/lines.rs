@@ -139,11 +139,12 @@ impl Search<'_> {
         });
         let [Some(first), Some(second)] = fewest else { return (None, line.trials) };
         for sum in (first + second).max(1)..=2 * MOST_POWERS {
-            if line.is_done(&of([sum, 0])) {
+            let most = MOST_POWERS.min(sum - second);
+            let firsts = first.max(sum.saturating_sub(MOST_POWERS))..=most;
+            if firsts.clone().all(|count| line.is_done(&of([count, sum - count]))) {
                 break;
             }
-            let most = MOST_POWERS.min(sum - second);
-            for count in first.max(sum.saturating_sub(MOST_POWERS))..=most {
+            for count in firsts {
                 line.attempt(&of([count, sum - count]));
             }
         }
