@@ -27,8 +27,9 @@ const LEAST: f64 = 1e-3;
 /// (1.055/12.92)^(12/7).
 const TOUCHES: f64 = 0.013_640_8;
 
-/// A step of 1 in the code of sRGB, from 0 to 1, in linear light (IEC 61966-2-1), and the largest
-/// concave function below it: a step is the same up to linear light 0.003, and larger from there on.
+/// A step of 1 in the code of sRGB, from 0 to 1, in linear light (IEC 61966-2-1), or rather the
+/// largest concave function below it: a step is the same up to linear light 0.003, and larger from
+/// there on.
 fn srgb_step(linear: f64) -> f64 {
     match linear < TOUCHES {
         true => (1.0 + 1.4 * linear / TOUCHES) / 12.92,
