@@ -292,7 +292,7 @@ impl Search<'_> {
         let problem = self.problem(first, region, f0, points);
         let places = std::cell::LazyCell::new(places);
         let mut tried = Vec::new();
-        // Where the cheapest storage loses the tolerance by rounding, the fit goes on to its end.
+        // Where the cheapest storage of a net loses the tolerance by rounding, the fit goes on.
         for enough in [ENOUGH, 0.0] {
             let Some(mut fit) = self.fit(&problem, enough) else {
                 let unsolved = Verdict::NotFound(Worst::unknown(f0[0]));
@@ -305,8 +305,13 @@ impl Search<'_> {
             }
             first.fill(&mut fit, self.truth, &region, points);
             tried = self.stored(same, region, f0, &fit, &places);
-            let is_cheapest = tried.first().is_some_and(|(_, passing)| passing.is_some());
-            if is_cheapest || fit.is_finished() {
+            // A better fit takes off no more than what it is above its bound.
+            let gain = fit.error - fit.bound;
+            let may_pass = match tried.first().map(|(trial, _)| &trial.verdict) {
+                Some(Verdict::NotFound(worst)) => worst.share - gain <= 1.0,
+                _ => false,
+            };
+            if !may_pass || fit.is_finished() || first.shape.net().is_none() {
                 break;
             }
         }
