@@ -138,14 +138,14 @@ fn measured(chosen: &Chosen, task: &Task, truth: &Truth) -> Result<Worst> {
     if !has_integrals(&approximation, truth) {
         return failed("a texel is not the integral at its place".into());
     }
+    let own = bound(&approximation, chosen.f0, task.tolerance, chosen.worst, truth);
     let Some(stated) = chosen.bound else {
-        let own = bound(&approximation, chosen.f0, task.tolerance, chosen.worst, truth);
         return match own {
             None if worst.share <= PASSES * ROUNDED => Ok(worst),
             _ => failed("the bound of the error is missing".into()),
         };
     };
-    match bound(&approximation, chosen.f0, task.tolerance, chosen.worst, truth) {
+    match own {
         Some(own) if own.share <= stated.share.min(1.0) * ROUNDED && own.from <= stated.from => {
             Ok(Worst { bound: Some(own), ..worst })
         }
@@ -188,14 +188,11 @@ fn proved(
             let proof: Vec<Multiplier> =
                 rejected.proof.iter().map(|point| Multiplier::of(*point)).collect();
             let region = Region::new(task.domain.least_nov, rejected.roughness);
-            let within = |value: f64, [low, high]: [f64; 2]| low <= value && value <= high;
-            let is_inside = |point: &Multiplier| {
-                within(point.nov, [region.least_nov, 1.0])
-                    && within(point.roughness, region.roughness)
-                    && within(point.f0, rejected.f0)
-                    && point.weight.is_finite()
+            let is_good = |point: &Multiplier| {
+                let place = [point.nov, point.roughness, point.f0];
+                is_inside(place, &region, rejected.f0) && point.weight.is_finite()
             };
-            if !proof.iter().all(is_inside) {
+            if !proof.iter().all(is_good) {
                 return failed(format!("rejected {index}: a point lies outside of its region"));
             }
             let places: Vec<(f64, f64)> =
@@ -233,6 +230,12 @@ fn proved(
     }
 }
 
+/// Whether n·v, roughness and F0 lie in a region and a range of F0; what is no number does not.
+fn is_inside([nov, roughness, own]: [f64; 3], region: &Region, f0: [f64; 2]) -> bool {
+    let within = |value: f64, [low, high]: [f64; 2]| low <= value && value <= high;
+    within(nov, [region.least_nov, 1.0]) && within(roughness, region.roughness) && within(own, f0)
+}
+
 /// Verifies that a texture of integrals errs by more than the tolerance at a place: one point.
 fn witnessed(
     candidate: &Candidate,
@@ -242,10 +245,7 @@ fn witnessed(
     truth: &Truth,
 ) -> Result<usize> {
     let region = Region::new(task.domain.least_nov, rejected.roughness);
-    let is_inside = (region.least_nov..=1.0).contains(&nov)
-        && (region.roughness[0]..=region.roughness[1]).contains(&roughness)
-        && (rejected.f0[0]..=rejected.f0[1]).contains(&f0);
-    if !is_inside {
+    if !is_inside([nov, roughness, f0], &region, rejected.f0) {
         return failed(format!("{candidate}: its witness lies outside of its region"));
     }
     let own = Truth::by_reference(truth.lobe(), &[(nov, roughness)])[0];

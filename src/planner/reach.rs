@@ -2,7 +2,6 @@
 //! the largest ones, before the many between are tried.
 
 use super::candidate::{Candidate, over_roughness};
-use super::cost::Cost;
 use super::fit::{Effort, Fit, Problem};
 use super::samples::{Spread, samples};
 use super::search::{Task, Trial, Verdict};
@@ -36,13 +35,8 @@ pub fn out_of_reach(task: &Task, truth: &Truth, truth_error: f64) -> Option<Vec<
     let shapes: Vec<&[Candidate]> = largest.chunk_by(|a, b| a.shape == b.shape).collect();
     let of_shape = |same: &&[Candidate]| {
         let Fit { bound, proof, .. } = far(task, truth, truth_error, &same[0], (region, f0))?;
-        let trial = |candidate: &Candidate| Trial {
-            candidate: *candidate,
-            region,
-            f0,
-            cost: Cost::of(candidate, &region),
-            verdict: Verdict::Fails { bound, proof: proof.clone() },
-        };
+        let verdict = || Verdict::Fails { bound, proof: proof.clone() };
+        let trial = |candidate: &Candidate| Trial::new(candidate, region, f0, verdict());
         Some(same.iter().map(trial).collect::<Vec<Trial>>())
     };
     let trials: Vec<Vec<Trial>> = shapes.par_iter().map(of_shape).collect::<Option<_>>()?;
@@ -66,10 +60,7 @@ fn far(
     let Task { tolerance, .. } = *task;
     let problem = Problem { region, f0, tolerance, channels, shape, counts, samples: &points };
     let fails = FAR + truth_error;
-    // Numbers that meet the tolerance are mostly found at once.
-    if problem.fit(Effort { steps: 1, fails, enough: 1.0 })?.error <= 1.0 {
-        return None;
-    }
+    // Numbers that meet the tolerance are mostly found at once, and end the fit.
     problem.fit(Effort { steps: STEPS, fails, enough: 1.0 }).filter(|fit| fit.bound > fails)
 }
 

@@ -74,7 +74,8 @@ pub struct Trial {
 }
 
 impl Trial {
-    fn new(candidate: &Candidate, region: Region, f0: [f64; 2], verdict: Verdict) -> Self {
+    /// A trial, and what the candidate costs in its region.
+    pub fn new(candidate: &Candidate, region: Region, f0: [f64; 2], verdict: Verdict) -> Self {
         let cost = Cost::of(candidate, &region);
         Trial { candidate: *candidate, region, f0, cost, verdict }
     }
@@ -232,9 +233,8 @@ impl Search<'_> {
         f0: [f64; 2],
         screen: &[Sample],
     ) -> Vec<(Trial, Option<Approximation>)> {
-        let mut tried = Vec::new();
-        for candidate in same {
-            let Some(approximation) = candidate.exact(self.truth, region) else { continue };
+        let made = |candidate: &Candidate| {
+            let approximation = candidate.exact(self.truth, region)?;
             let measure = |places: &[Sample]| {
                 verify::measure(&approximation, f0, self.task.tolerance, places)
             };
@@ -242,15 +242,9 @@ impl Search<'_> {
             if worst.share <= 1.0 {
                 worst = measure(&verify::points(self.truth, &region, &candidate.shape));
             }
-            let verdict = self.judged(&approximation, f0, worst);
-            let passes = matches!(verdict, Verdict::Passes(_));
-            let approximation = passes.then_some(approximation);
-            tried.push((Trial::new(candidate, region, f0, verdict), approximation));
-            if passes {
-                break;
-            }
-        }
-        tried
+            Some((approximation, worst))
+        };
+        self.verified(same, region, f0, made)
     }
 
     fn problem<'b>(
@@ -304,7 +298,11 @@ impl Search<'_> {
                 return failing.into_iter().map(|trial| (trial, None)).collect();
             }
             first.fill(&mut fit, self.truth, &region, points);
-            tried = self.stored(same, region, f0, &fit, &places);
+            tried = self.verified(same, region, f0, |candidate| {
+                let approximation = candidate.with(&fit, self.truth.lobe(), region);
+                let worst = verify::measure(&approximation, f0, self.task.tolerance, &places);
+                Some((approximation, worst))
+            });
             // A better fit takes off no more than what it is above its bound.
             let gain = fit.error - fit.bound;
             let may_pass = match tried.first().map(|(trial, _)| &trial.verdict) {
@@ -318,19 +316,18 @@ impl Search<'_> {
         tried
     }
 
-    /// Verifies the numbers of a fit in each storage, until one passes.
-    fn stored(
+    /// Verifies what is made of candidates that differ in storage, and its error at points, until
+    /// one passes.
+    fn verified(
         &self,
         same: &[Candidate],
         region: Region,
         f0: [f64; 2],
-        fit: &Fit,
-        places: &[Sample],
+        made: impl Fn(&Candidate) -> Option<(Approximation, Worst)>,
     ) -> Vec<(Trial, Option<Approximation>)> {
         let mut tried = Vec::new();
         for candidate in same {
-            let approximation = candidate.with(fit, self.truth.lobe(), region);
-            let worst = verify::measure(&approximation, f0, self.task.tolerance, places);
+            let Some((approximation, worst)) = made(candidate) else { continue };
             let verdict = self.judged(&approximation, f0, worst);
             let passes = matches!(verdict, Verdict::Passes(_));
             let approximation = passes.then_some(approximation);
