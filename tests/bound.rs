@@ -109,6 +109,7 @@ fn nothing_exceeds_the_bound_and_it_is_near() {
         storage: Storage::F32,
     };
     let ratio = line(Channels::Ratio, Along::Cbrt, [4, 0]);
+    let rough = line(Channels::EnergyRest, Along::Log, [3, 3]);
     let pair = line(Channels::EnergyRest, layer, [5, 4]);
     let steps = Tolerance::Srgb { steps: 2.0, radiance: 1.0, diffuse: 0.1 };
     let cases = [
@@ -121,6 +122,7 @@ fn nothing_exceeds_the_bound_and_it_is_near() {
         (surface, region(1e-3, [0.3, 1.0]), plastic, absolute),
         (surface, region(0.0, [0.3, 1.0]), plastic, absolute),
         (ratio, region(1e-3, [0.5, 0.5]), plastic, absolute),
+        (rough, region(1e-3, [0.9, 0.9]), all, absolute),
         (pair, region(1e-3, [0.2, 0.2]), all, absolute),
         (pair, region(0.0, [0.05, 0.05]), all, absolute),
     ];

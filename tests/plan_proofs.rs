@@ -31,6 +31,7 @@ fn functions(candidate: &Candidate, region: (f64, [f64; 2]), nov: f64, r: f64) -
         Along::Nov => m,
         Along::Sqrt => m.sqrt(),
         Along::Cbrt => m.cbrt(),
+        Along::Log => m * (1.0 + 1.0 / m).log2(),
         Along::Layer(k) => (m * (1.0 + k * r * r) / (m + k * r * r)).sqrt(),
     };
     let across = |y: Across, r: f64| match y {
@@ -41,7 +42,7 @@ fn functions(candidate: &Candidate, region: (f64, [f64; 2]), nov: f64, r: f64) -
     let powers = |x: f64, count: usize| (0..count).map(|i| x.powi(i as i32)).collect::<Vec<f64>>();
     match candidate.shape {
         Shape::Polynomial { x } => {
-            powers(along(x, nov), candidate.counts[0].max(candidate.counts[1]))
+            powers(2.0 * along(x, nov) - 1.0, candidate.counts[0].max(candidate.counts[1]))
         }
         Shape::Surface { x, y, columns } => {
             let rows = powers(across(y, r), candidate.counts[0] / columns);

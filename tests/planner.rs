@@ -8,7 +8,7 @@ mod program;
 
 use common::Random;
 use program::{ok, run, stderr};
-use splitsum::approximation::Approximation;
+use splitsum::approximation::{Along, Approximation, Channels, Numbers, Shape};
 use splitsum::backend::cpu::bake_points;
 use splitsum::brdf::{Microfacet, Ndf};
 use splitsum::integrate::rules::D10240;
@@ -70,6 +70,31 @@ fn it_takes_no_more_bytes_than_was_found_by_hand() {
     // A mirror: A = 1 - (1 - n.v)^5 and B = (1 - n.v)^5.
     let outcome = search(&task(1e-3, 1e-5, [0.0, 1.0], &[[0.0, 0.0]]), &TRUTH);
     assert_eq!(outcome.cost.bytes, 2);
+}
+
+/// E(F0) = F of a mirror, and E = 1 - μ ln(1 + 1/μ) at roughness 1 (height-correlated Smith masking,
+/// whose integral over the hemisphere has this form at α = 1): one number and two.
+#[test]
+fn closed_forms_are_found() {
+    let chosen = |roughness: f64, f0: [f64; 2]| {
+        let outcome = search(&task(1e-3, 1e-3, f0, &[[roughness; 2]]), &TRUTH);
+        let (approximation, _) = outcome.choice.first().unwrap().clone();
+        let numbers = |numbers: &Numbers| (0..numbers.len()).map(|i| numbers.get(i)).collect();
+        let numbers: Vec<Vec<f64>> = approximation.numbers.iter().map(numbers).collect();
+        (approximation, numbers)
+    };
+    let (mirror, numbers) = chosen(0.0, [0.0, 1.0]);
+    assert_eq!(mirror.channels, Channels::EnergyRest);
+    assert_eq!(numbers, [vec![1.0], vec![]]);
+    let (rough, numbers) = chosen(1.0, [1.0; 2]);
+    assert_eq!(rough.shape, Shape::Polynomial { x: Along::Log });
+    // E = 1 - ln 2 x with x = (y + 1)/2; halves are right to 2^-12 here, and a best fit uses the
+    // tolerance that is left.
+    let half = 0.5 * std::f64::consts::LN_2;
+    let expected = [1.0 - half, -half];
+    assert_eq!(numbers[0].len(), expected.len(), "{numbers:?}");
+    let is_near = |(own, expected): (&f64, f64)| (own - expected).abs() < 1e-3;
+    assert!(numbers[0].iter().zip(expected).all(is_near), "{numbers:?}");
 }
 
 #[test]

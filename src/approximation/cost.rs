@@ -11,6 +11,9 @@ const ROOT: usize = 4;
 /// A power or a cube root.
 const POWER: usize = 12;
 
+/// A logarithm: half of a power.
+const LOG: usize = 6;
+
 /// A value kept between two numbers.
 const CLAMP: usize = 2;
 
@@ -44,7 +47,7 @@ impl Lookup<'_> {
         let steps: usize =
             self.counts.iter().take(channels).map(|count| STEP * count.saturating_sub(1)).sum();
         let sums = match self.shape {
-            Shape::Polynomial { x } => CLAMP + along(x, true) + steps,
+            Shape::Polynomial { x } => CLAMP + along(x, true) + STEP + steps,
             Shape::Surface { x, y, .. } => 2 * CLAMP + along(x, false) + power(y) + steps,
             // The place on each axis; the sampler does the rest.
             Shape::Texture { x, y, .. } => [x, y].iter().map(texel).sum(),
@@ -101,6 +104,8 @@ fn along(x: Along, constant: bool) -> usize {
         Along::Nov => 0,
         Along::Sqrt => ROOT,
         Along::Cbrt => POWER,
+        // A maximum, a quotient, a sum, a logarithm and two products.
+        Along::Log => 1 + ROOT + 1 + LOG + 2,
         Along::Layer(_) if constant => 2 + 2 * ROOT,
         Along::Layer(_) => 2 + 2 + 2 + 2 * ROOT,
     }

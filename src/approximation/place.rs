@@ -13,6 +13,9 @@ pub enum Along {
     Sqrt,
     /// ∛(n·v)
     Cbrt,
+    /// μ ln(1 + 1/μ)/ln 2 with μ = n·v, which is counted from 0: GGX with height-correlated masking
+    /// has E = 1 - μ ln(1 + 1/μ) at α = 1, and rough surfaces are alike.
+    Log,
     /// T = √(μ(1 + kα)/(μ + kα)) with μ = n·v. Near n·v = α = 0 the integrals are functions of
     /// n·v/α alone: T resolves that layer, whatever α.
     Layer(f64),
@@ -29,7 +32,7 @@ pub enum Across {
     Power(f64),
 }
 
-/// Keeps the quotient 0/0 of [`Along::Layer`] at n·v = α = 0 at 0.
+/// Keeps the quotients finite of [`Along::Layer`] at n·v = α = 0 and of [`Along::Log`] at n·v = 0.
 pub const TINY: f64 = 1e-30;
 
 impl Along {
@@ -43,6 +46,7 @@ impl Along {
             Along::Nov => nov,
             Along::Sqrt => nov.sqrt(),
             Along::Cbrt => nov.zip(nov, |nov, _| libm::cbrt(nov)),
+            Along::Log => nov.zip(nov, |nov, _| log(nov)),
             Along::Layer(k) => {
                 let width = roughness * roughness * k;
                 (nov * (width + 1.0) / (nov + width).max(R::from(TINY))).sqrt()
@@ -56,6 +60,7 @@ impl Along {
             Along::Nov => place,
             Along::Sqrt => place * place,
             Along::Cbrt => place * place * place,
+            Along::Log => inverse_log(place),
             Along::Layer(k) => {
                 let (width, squared) = (roughness * roughness * k, place * place);
                 // 0/0 at a mirror's n·v = 1.
@@ -71,6 +76,7 @@ impl Along {
             Along::Nov => "nov".into(),
             Along::Sqrt => "sqrt".into(),
             Along::Cbrt => "cbrt".into(),
+            Along::Log => "log".into(),
             Along::Layer(k) => format!("layer={k}"),
         }
     }
@@ -81,9 +87,25 @@ impl Along {
             "nov" => Ok(Along::Nov),
             "sqrt" => Ok(Along::Sqrt),
             "cbrt" => Ok(Along::Cbrt),
-            _ => parameter(word, "layer=", "nov, sqrt, cbrt or layer=K").map(Along::Layer),
+            "log" => Ok(Along::Log),
+            _ => parameter(word, "layer=", "nov, sqrt, cbrt, log or layer=K").map(Along::Layer),
         }
     }
+}
+
+/// μ ln(1 + 1/μ)/ln 2
+fn log(nov: f64) -> f64 {
+    nov * libm::log(1.0 + 1.0 / nov.max(TINY)) * std::f64::consts::LOG2_E
+}
+
+/// The μ of that, by halving.
+fn inverse_log(place: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..64 {
+        let middle = 0.5 * (low + high);
+        if log(middle) < place { low = middle } else { high = middle }
+    }
+    high
 }
 
 impl Across {

@@ -8,10 +8,11 @@ use crate::table::axis::Axis;
 /// A shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
-    /// A polynomial in a coordinate along n·v, for one roughness: its number i is the factor of
-    /// x^i.
+    /// A polynomial in 2 x - 1 for a coordinate x along n·v, for one roughness: its number i is the
+    /// factor of (2 x - 1)^i. Powers of what lies between -1 and 1 have small factors, which halves
+    /// hold well.
     Polynomial {
-        /// The coordinate, counted from n·v = 0.
+        /// The coordinate x, from 0 to 1 and counted from n·v = 0.
         x: Along,
     },
     /// A polynomial in two coordinates: its number j·columns + i is the factor of x^i y^j.
@@ -54,6 +55,20 @@ pub struct Net {
     pub size: [usize; 2],
     /// Of its pieces.
     pub degree: usize,
+}
+
+impl Net {
+    /// Where its control points stand in a system of equations, and how far apart those that count
+    /// at one place do at the most: neighbours along the shorter side stand side by side.
+    pub fn order(self) -> (Vec<usize>, usize) {
+        let Net { size: [columns, rows], degree } = self;
+        let is_wide = columns > rows;
+        let place = |index: usize| {
+            let (i, j) = (index % columns, index / columns);
+            if is_wide { i * rows + j } else { index }
+        };
+        ((0..columns * rows).map(place).collect(), degree * (columns.min(rows) + 1) + 1)
+    }
 }
 
 /// The numbers that count at a place, and their weights: the control points of the span where it
@@ -117,10 +132,11 @@ impl Shape {
         }
     }
 
-    /// The coordinates that it takes; those of a net are from 0 to 1.
+    /// The coordinates that it takes: those of a net are from 0 to 1, that of a polynomial in n·v
+    /// from -1 to 1.
     pub fn coordinates<R: Real>(&self, region: &Region, nov: R, roughness: R) -> [R; 2] {
         match *self {
-            Shape::Polynomial { x } => [x.at(0.0, nov, roughness), R::from(0.0)],
+            Shape::Polynomial { x } => [x.at(0.0, nov, roughness) * 2.0 - 1.0, R::from(0.0)],
             Shape::Surface { x, y, .. } => [x.at(0.0, nov, roughness), y.of(roughness)],
             Shape::Spline { x, y, .. } => {
                 [x.at(region.least_nov, nov, roughness), y.at(region, roughness)]

@@ -170,11 +170,11 @@ pub fn run(arguments: &PlanArgs) -> Result<()> {
     let task = Task { domain, tolerance, weights, sampler };
     let truth = Truth::new(lobe);
     let outcome = search(&task, &truth);
-    let seconds = started.elapsed().as_secs_f64();
     if outcome.choice.is_empty() {
         return Err(unmet(&task, outcome.trials.len()));
     }
     let mut plan = PlanFile::new(&task, &truth, &outcome, command(arguments))?;
+    let seconds = started.elapsed().as_secs_f64();
     plan.outputs = made(arguments).map(|name| output_of(output, name, arguments)).collect();
     let report = Report {
         scenes: scenes.iter().map(SceneText::new).collect(),

@@ -29,7 +29,7 @@ pub struct Candidate {
 const LAYERS: [f64; 2] = [3.0, 4.0];
 
 /// Coordinates of a polynomial in n·v.
-pub const ALONG: [Along; 4] = [Along::Nov, Along::Sqrt, Along::Cbrt, Along::Layer(3.0)];
+const ALONG: [Along; 5] = [Along::Nov, Along::Sqrt, Along::Cbrt, Along::Log, Along::Layer(3.0)];
 
 /// Control points along n·v, from the fewest to the most.
 const COLUMNS: std::ops::RangeInclusive<usize> = 3..=28;
@@ -151,6 +151,18 @@ pub fn textures(sampler: &Sampler) -> Result<Vec<Candidate>> {
         }
     }
     Ok(candidates)
+}
+
+/// The coordinates that a polynomial in n·v may have in a region.
+pub fn along(region: &Region) -> Vec<Along> {
+    let is_possible = |x: &Along| match x {
+        // A mirror has no layer.
+        Along::Layer(_) => region.roughness[0] > 0.0,
+        // No bound is finite where its slope is not.
+        Along::Log => region.least_nov > 0.0,
+        Along::Nov | Along::Sqrt | Along::Cbrt => true,
+    };
+    ALONG.into_iter().filter(is_possible).collect()
 }
 
 /// The channels for a range of F0.

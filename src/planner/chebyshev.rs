@@ -1,14 +1,13 @@
 //! Chebyshev polynomials on the range of a coordinate: polynomials are fitted in them, since their
 //! system is well conditioned, and given out in powers.
 
-use super::samples::Sample;
-use crate::approximation::{Across, Along, Region, Shape};
+use crate::approximation::{Region, Shape};
 
 /// Products T_i(x) T_j(y), i varying fastest, with x and y from -1 to 1 over the region.
 #[derive(Clone, Debug)]
 pub struct Chebyshev {
-    x: Along,
-    y: Option<Across>,
+    shape: Shape,
+    region: Region,
     /// Centre and half width of each range.
     ranges: [(f64, f64); 2],
     columns: usize,
@@ -72,39 +71,36 @@ fn range(first: f64, last: f64) -> (f64, f64) {
 impl Chebyshev {
     /// The functions of a polynomial with `count` numbers in a region.
     pub fn of(shape: &Shape, region: &Region, count: usize) -> Self {
-        let (x, y, columns) = match *shape {
-            Shape::Surface { x, y, columns } => (x, Some(y), columns),
-            Shape::Polynomial { x } | Shape::Spline { x, .. } => (x, None, count),
-            Shape::Texture { .. } => (Along::Nov, None, count),
-        };
+        let columns = if let Shape::Surface { columns, .. } = *shape { columns } else { count };
+        let [low, high] = region.roughness;
         // A coordinate along n·v is least at the roughest end.
-        let least = x.at::<f64>(0.0, region.least_nov, region.roughness[1]);
-        let across = y.map_or((0.0, 1.0), |y| {
-            let [low, high] = region.roughness;
-            range(y.of(low), y.of(high))
-        });
+        let [x, y] = shape.coordinates::<f64>(region, region.least_nov, high);
+        let [last_x, _] = shape.coordinates::<f64>(region, 1.0, high);
+        let [_, first_y] = shape.coordinates::<f64>(region, 1.0, low);
         Chebyshev {
-            x,
-            y,
-            ranges: [range(least, 1.0), across],
+            shape: *shape,
+            region: *region,
+            ranges: [range(x, last_x), range(first_y, y)],
             columns,
             rows: count.div_ceil(columns.max(1)),
         }
     }
 
-    /// The functions at a sample.
-    pub fn at(&self, sample: &Sample) -> Vec<f64> {
+    /// The functions at a place.
+    pub fn at(&self, nov: f64, roughness: f64) -> Vec<f64> {
         let place = |value: f64, (centre, half): (f64, f64)| (value - centre) / half;
-        let x = self.x.at(0.0, sample.nov, sample.roughness);
+        let [x, y] = self.shape.coordinates(&self.region, nov, roughness);
         let along = values(self.columns, place(x, self.ranges[0]));
-        let Some(y) = self.y else { return along };
-        let across = values(self.rows, place(y.of(sample.roughness), self.ranges[1]));
+        if self.rows == 1 {
+            return along;
+        }
+        let across = values(self.rows, place(y, self.ranges[1]));
         across.iter().flat_map(|row| along.iter().map(move |column| row * column)).collect()
     }
 
     /// The numbers of the shape: factors of powers.
     pub fn in_powers(&self, series: &[f64]) -> Vec<f64> {
-        if self.y.is_none() {
+        if self.rows == 1 {
             return powers(series, self.ranges[0]);
         }
         // Along x in each row, then across y in each column.

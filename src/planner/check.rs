@@ -2,7 +2,7 @@
 //! every proof.
 
 use super::bound::bound;
-use super::candidate::{self, ALONG, Candidate};
+use super::candidate::{self, Candidate};
 use super::cost::Cost;
 use super::domain::Piece;
 use super::file::{Chosen, PlanFile, Rejected};
@@ -304,7 +304,7 @@ fn is_complete(file: &PlanFile, task: &Task) -> Result<()> {
             other.includes(candidate) && (entry.found.is_none() || is_same_storage)
         };
         let is_line = |candidate: &&Candidate| cost(candidate, &region) < limit;
-        for candidate in all_lines(piece.f0).iter().filter(is_line) {
+        for candidate in all_lines(&region, piece.f0).iter().filter(is_line) {
             if !own.iter().any(|other| covers(other, candidate)) {
                 return missing(candidate);
             }
@@ -318,11 +318,11 @@ fn is_of(entry: &Rejected, piece: &Piece) -> bool {
     entry.roughness == piece.roughness && entry.f0 == piece.f0
 }
 
-/// Every polynomial in n·v for a range of F0.
-fn all_lines(f0: [f64; 2]) -> Vec<Candidate> {
+/// Every polynomial in n·v for a region and a range of F0.
+fn all_lines(region: &Region, f0: [f64; 2]) -> Vec<Candidate> {
     let mut lines = Vec::new();
     for channels in candidate::channels(f0) {
-        for x in ALONG {
+        for x in candidate::along(region) {
             let second = if channels.count() == 2 { MOST_POWERS } else { 0 };
             for first in 0..=MOST_POWERS {
                 for second in 0..=second {

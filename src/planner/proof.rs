@@ -6,7 +6,9 @@
 //! is at least |Σ λ_i f_i| / Σ |λ_i| τ_i (the dual of Chebyshev approximation; Watson 1980).
 //! Whoever can evaluate the g_k and f can check it.
 
+use super::banded::Banded;
 use super::candidate::Candidate;
+use super::chebyshev::Chebyshev;
 use super::fit::Multiplier;
 use super::tolerance::Tolerance;
 use super::truth::{Albedo, Truth};
@@ -19,6 +21,17 @@ pub const LARGEST_NUMBER: f64 = 1e6;
 
 /// Digits of the points and multipliers that are kept.
 const DIGITS: (usize, usize) = (6, 15);
+
+/// Added to the diagonal of functions of size 1: those that depend on others but for rounding stay
+/// at rest.
+const REGULARISATION: f64 = 1e-14;
+
+/// Steps of a projection at the most. A step leaves a share of 1e-6 of what is not orthogonal to
+/// most functions, and a large one of what is not to those that nearly depend on others.
+const PROJECTIONS: usize = 24;
+
+/// What is orthogonal but for rounding, as a share of all multipliers.
+const ORTHOGONAL: f64 = 1e-15;
 
 /// Digits that change no f64.
 const EXACT: usize = 17;
@@ -79,6 +92,35 @@ impl Claim<'_> {
         (0..channels.count()).flat_map(of_channel).collect()
     }
 
+    /// The functions at points in an order, of polynomials in a basis, that suits a projection.
+    fn rows(&self, points: &[Multiplier]) -> Rows {
+        let Candidate { channels, counts, shape, .. } = self.candidate;
+        let count = channels.count();
+        if let Some(net) = shape.net() {
+            let (order, band) = net.order();
+            let places = |point: &Multiplier| {
+                let place = |(index, value): (usize, f64)| {
+                    (order[index % counts[0]] * count + index / counts[0], value)
+                };
+                self.row(point).into_iter().map(place).collect()
+            };
+            let rows = points.iter().map(places).collect();
+            return Rows { rows, size: counts[0] * count, band: count * band };
+        }
+        let basis = Chebyshev::of(shape, self.region, counts[0].max(counts[1]));
+        let row = |point: &Multiplier| {
+            let factors = channels.weights(point.nov, point.f0);
+            let functions = basis.at(point.nov, point.roughness);
+            let of_channel = |channel: usize| {
+                let (factor, own) = (factors[channel], functions[..counts[channel]].to_vec());
+                own.into_iter().map(move |value| factor * value)
+            };
+            (0..count).flat_map(of_channel).enumerate().collect()
+        };
+        let size = counts.iter().take(count).sum();
+        Rows { rows: points.iter().map(row).collect(), size, band: size }
+    }
+
     /// The bound that multipliers prove, where `truths` are E and B at their points: what numbers
     /// up to [`LARGEST_NUMBER`] could still gain by rounding is taken off.
     pub fn bound(&self, proof: &[Multiplier], truths: &[Albedo]) -> f64 {
@@ -130,9 +172,7 @@ impl Claim<'_> {
         tries.sort_unstable();
         tries.dedup();
         tries.into_iter().find_map(|count| {
-            let rows: Vec<Vec<(usize, f64)>> =
-                points[..count].iter().map(|point| self.row(point)).collect();
-            let weights = projected(&rows, &points[..count])?;
+            let weights = self.rows(&points[..count]).projected(&points[..count])?;
             let proof: Vec<Multiplier> = points[..count]
                 .iter()
                 .zip(weights)
@@ -149,42 +189,56 @@ fn powers(x: f64, count: usize) -> Vec<f64> {
     std::iter::successors(Some(1.0), |power| Some(power * x)).take(count).collect()
 }
 
-/// The multipliers nearest to those of the points that are orthogonal to every function, scaled to
-/// a sum of 1: by Gram and Schmidt's orthogonalisation of the functions, done twice.
-fn projected(rows: &[Vec<(usize, f64)>], points: &[Multiplier]) -> Option<Vec<f64>> {
-    let numbers = rows.iter().flatten().map(|(place, _)| place + 1).max()?;
-    let mut functions = vec![vec![0.0; rows.len()]; numbers];
-    for (i, row) in rows.iter().enumerate() {
-        row.iter().for_each(|(place, value)| functions[*place][i] += value);
-    }
-    let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
-    let remove = |from: &mut [f64], part: &[f64]| {
-        let share = dot(from, part);
-        from.iter_mut().zip(part).for_each(|(from, part)| *from -= share * part);
-    };
-    let mut basis: Vec<Vec<f64>> = Vec::new();
-    for mut function in functions {
-        let size = dot(&function, &function).sqrt();
-        if size == 0.0 {
-            continue;
+/// Rows of functions at points: the places and the values of those that are not 0 at each.
+struct Rows {
+    rows: Vec<Vec<(usize, f64)>>,
+    /// The number of functions.
+    size: usize,
+    /// How far apart those of a row are at the most.
+    band: usize,
+}
+
+impl Rows {
+    /// The multipliers nearest to those of the points that are orthogonal to every function, scaled
+    /// to a sum of 1. None where none are left.
+    ///
+    /// λ - G (GᵀG)⁻¹ Gᵀλ with functions of size 1; a step leaves a share of Gᵀλ, so that it is done
+    /// again.
+    fn projected(&self, points: &[Multiplier]) -> Option<Vec<f64>> {
+        let mut scales = vec![0.0; self.size];
+        let entries = || self.rows.iter().flatten();
+        entries().for_each(|(place, value)| scales[*place] += value * value);
+        let inverse =
+            |square: &mut f64| *square = if *square > 0.0 { square.sqrt().recip() } else { 0.0 };
+        scales.iter_mut().for_each(inverse);
+        let mut matrix = Banded::zeros(self.size, self.band);
+        for row in &self.rows {
+            for &(i, first) in row {
+                for &(j, second) in row.iter().filter(|(j, _)| *j <= i) {
+                    matrix.add(i, j, first * scales[i] * second * scales[j]);
+                }
+            }
         }
-        for _ in 0..2 {
-            basis.iter().for_each(|part| remove(&mut function, part));
+        matrix.regularise(REGULARISATION);
+        matrix.factorise()?;
+        let mut weights: Vec<f64> = points.iter().map(|point| point.weight).collect();
+        for _ in 0..PROJECTIONS {
+            let mut sums = vec![0.0; self.size];
+            for (row, weight) in self.rows.iter().zip(&weights) {
+                row.iter().for_each(|(place, value)| sums[*place] += weight * value);
+            }
+            let size: f64 = weights.iter().map(|weight| weight.abs()).sum();
+            if sums.iter().all(|sum| sum.abs() <= ORTHOGONAL * size) {
+                break;
+            }
+            sums.iter_mut().zip(&scales).for_each(|(sum, scale)| *sum *= scale);
+            matrix.substitute(&mut sums);
+            sums.iter_mut().zip(&scales).for_each(|(share, scale)| *share *= scale);
+            for (row, weight) in self.rows.iter().zip(&mut weights) {
+                *weight -= row.iter().map(|(place, value)| sums[*place] * value).sum::<f64>();
+            }
         }
-        let left = dot(&function, &function).sqrt();
-        // What depends on the others but for rounding needs no place in the basis.
-        if left > 1e-13 * size {
-            function.iter_mut().for_each(|value| *value /= left);
-            basis.push(function);
-        }
+        let sum: f64 = weights.iter().map(|weight| weight.abs()).sum();
+        (sum > 0.0).then(|| weights.iter().map(|weight| weight / sum).collect())
     }
-    if basis.len() >= rows.len() {
-        return None;
-    }
-    let mut weights: Vec<f64> = points.iter().map(|point| point.weight).collect();
-    for _ in 0..3 {
-        basis.iter().for_each(|part| remove(&mut weights, part));
-    }
-    let sum: f64 = weights.iter().map(|weight| weight.abs()).sum();
-    (sum > 0.0).then(|| weights.iter().map(|weight| weight / sum).collect())
 }

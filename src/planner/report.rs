@@ -105,7 +105,16 @@ fn along(x: Along) -> String {
         Along::Nov => "n.v".into(),
         Along::Sqrt => "sqrt(n.v)".into(),
         Along::Cbrt => "cbrt(n.v)".into(),
+        Along::Log => "n.v log2(1 + 1/n.v)".into(),
         Along::Layer(k) => format!("T = sqrt(n.v (1 + {k} alpha)/(n.v + {k} alpha))"),
+    }
+}
+
+/// The variable of a polynomial in n·v.
+fn centred(x: Along) -> String {
+    match x {
+        Along::Layer(_) => format!("2 T - 1, {}", along(x)),
+        _ => format!("2 {} - 1", along(x)),
     }
 }
 
@@ -131,7 +140,7 @@ pub fn in_words(candidate: &Candidate) -> String {
     };
     match *shape {
         Shape::Polynomial { x } => {
-            format!("polynomial in {} of {channels}: {numbers} {bits}", along(x))
+            format!("polynomial in {} of {channels}: {numbers} {bits}", centred(x))
         }
         Shape::Surface { x, y, columns } => format!(
             "polynomial in {} and {} of {channels}: {columns} x {} powers, {numbers} {bits}",

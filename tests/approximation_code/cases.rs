@@ -11,7 +11,7 @@ use splitsum::choice::Choice;
 use splitsum::lookup::Language;
 use splitsum::numeric::lanes::{F32x16, Vector};
 
-const ALONG: [Along; 4] = [Along::Nov, Along::Sqrt, Along::Cbrt, Along::Layer(2.5)];
+const ALONG: [Along; 5] = [Along::Nov, Along::Sqrt, Along::Cbrt, Along::Log, Along::Layer(2.5)];
 const ACROSS: [Across; 3] = [Across::Linear, Across::Sqrt, Across::Power(1.3)];
 
 /// Approximations, one or several of materials, with a name.
@@ -58,7 +58,7 @@ pub fn cases() -> Vec<Case> {
         for (s, &storage) in Storage::ALL.iter().enumerate() {
             for degree in 1..=3 {
                 let seed = all.len();
-                let x = ALONG[(c + s + degree) % 4];
+                let x = ALONG[(c + s + degree) % 5];
                 let y = ACROSS[(c + degree) % 3];
                 // The smallest of each degree, too.
                 let size =
@@ -82,7 +82,7 @@ pub fn cases() -> Vec<Case> {
     let polynomial = |n: usize, channels: Channels| {
         let r = [0.3, 0.0, 1.0, 0.55][n % 4];
         let region = Region { least_nov: 0.0, roughness: [r, r] };
-        let shape = Shape::Polynomial { x: ALONG[n / 2 % 4] };
+        let shape = Shape::Polynomial { x: ALONG[n / 2 % 5] };
         approximation(200 + n, shape, channels, Storage::ALL[n % 3], region, [6, 3, 2, 4, 7][n % 5])
     };
     for n in 0..24 {

@@ -34,7 +34,7 @@ impl Functions<'_> {
         let count = self.packing.count;
         let terms = match self.approximation.shape {
             Shape::Polynomial { .. } => {
-                lines.push(local("x", x));
+                lines.push(local("x", dialect.affine(&x, 2.0, -1.0)));
                 let number = |i| ("number", vec![dialect.whole_number(i)]);
                 (0..count).map(number).collect()
             }

@@ -20,6 +20,8 @@ pub struct Dialect {
     pub min: fn(&str, &str) -> String,
     /// x^p
     pub power: fn(&str, &str) -> String,
+    /// ln x
+    pub log: fn(&str) -> String,
     /// ∛x
     pub cbrt: fn(&str, &str) -> String,
     /// The whole part of a float from 0 on, but no more than the index `last`.
@@ -57,6 +59,7 @@ const GLSL: Dialect = Dialect {
     },
     min: |x, y| format!("min({x}, {y})"),
     power: |x, p| format!("pow({x}, {p})"),
+    log: |x| format!("log({x})"),
     cbrt: |x, third| format!("pow({x}, {third})"),
     whole: |x, last| format!("min(uint({x}), {last}u)"),
     float: |x| format!("float({x})"),
@@ -108,6 +111,7 @@ const C: Dialect = Dialect {
     },
     min: |x, y| format!("fminf({x}, {y})"),
     power: |x, p| format!("powf({x}, {p})"),
+    log: |x| format!("logf({x})"),
     cbrt: |x, _| format!("cbrtf({x})"),
     whole: |x, last| format!("(unsigned)fminf({x}, {last}.0f)"),
     float: |x| format!("(float){}", grouped(x)),
@@ -125,6 +129,7 @@ const RUST: Dialect = Dialect {
     },
     min: |x, y| format!("f32::min({x}, {y})"),
     power: |x, p| format!("f32::powf({x}, {p})"),
+    log: |x| format!("f32::ln({x})"),
     cbrt: |x, _| format!("f32::cbrt({x})"),
     whole: |x, last| format!("({x} as usize).min({last})"),
     float: |x| format!("{} as f32", grouped(x)),

@@ -4,6 +4,7 @@
 use super::dialect::Dialect;
 use crate::approximation::place::TINY;
 use crate::approximation::{Across, Along, Region};
+use std::f64::consts::LOG2_E;
 
 /// The lines of n, which is n·v counted from `least`, and of what else the coordinate needs; and
 /// the coordinate as an expression. `roughness` is there where it is a constant.
@@ -32,6 +33,11 @@ pub fn along(
         Along::Nov => "n".into(),
         Along::Sqrt => (words.sqrt)("n"),
         Along::Cbrt => (dialect.cbrt)("n", &dialect.number(1.0 / 3.0)),
+        Along::Log => {
+            let least = (words.max)("n", &dialect.number(TINY));
+            let inverse = format!("{} + {} / {least}", dialect.number(1.0), dialect.number(1.0));
+            format!("n * {} * {}", (dialect.log)(&inverse), dialect.number(LOG2_E))
+        }
         Along::Layer(k) => {
             let width = roughness.map(|r| r * r * k);
             let (factor, sum) = match width {

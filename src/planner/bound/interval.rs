@@ -180,6 +180,16 @@ impl Jet {
         })
     }
 
+    /// f ln(1 + 1/f)/ln 2 of f from 0 on: its derivatives are ln(1 + 1/f) - 1/(1 + f) and
+    /// -1/(f (1 + f)²), over ln 2.
+    pub fn log(self) -> Self {
+        self.through(|x| {
+            let (log, next) = (libm::log(1.0 + 1.0 / x), 1.0 / (1.0 + x));
+            let value = if x > 0.0 { x * log } else { 0.0 };
+            [value, log - next, -next * next / x].map(|own| own * std::f64::consts::LOG2_E)
+        })
+    }
+
     /// φ(f) of f from 0 on, where φ and its first two derivatives are monotone.
     fn through(self, of: impl Fn(f64) -> [f64; 3]) -> Self {
         let Interval { low, high } = self.value;

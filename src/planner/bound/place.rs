@@ -198,6 +198,10 @@ impl<'a> Coordinates<'a> {
             }
         };
         let along = along(x, counted, alpha).within(0.0, 1.0);
+        let along = match self.shape {
+            Shape::Polynomial { .. } => along * 2.0 + -1.0,
+            _ => along,
+        };
         Place { s, t, nov, along, across }
     }
 }
@@ -257,6 +261,7 @@ fn along(x: Along, slope: Factored, alpha: Jet) -> Jet {
         Along::Nov => slope.whole() * alpha,
         Along::Sqrt => slope.sqrt() * alpha.sqrt(),
         Along::Cbrt => (slope.whole() * alpha).power(1.0 / 3.0),
+        Along::Log => (slope.whole() * alpha).log(),
         Along::Layer(k) => {
             let widened = alpha * k + 1.0;
             let inverse = (slope.whole() + k).recip();
@@ -323,6 +328,8 @@ mod tests {
             (spline(Along::Nov, Across::Linear), 1e-3),
             (surface(Along::Cbrt, Across::Linear), 1e-3),
             (surface(layer, Across::Sqrt), 0.0),
+            (surface(Along::Log, Across::Sqrt), 1e-3),
+            (Shape::Polynomial { x: Along::Log }, 1e-3),
             (texture("nov,sqrt,edges", "alpha,sqrt,edges,flip"), 1e-3),
             (texture("nov,edges", "roughness,edges"), 0.0),
         ];

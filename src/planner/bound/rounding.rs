@@ -25,8 +25,9 @@ pub fn rounding(approximation: &Approximation) -> f64 {
         let sizes: Vec<f64> = (0..numbers.len()).map(|i| numbers.get(i).abs()).collect();
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         match *shape {
-            Shape::Polynomial { .. } => powers(&sizes, sizes.len().max(1)),
-            Shape::Surface { columns, .. } => powers(&sizes, columns),
+            // 2 x - 1 has twice the error of x, and one of its own.
+            Shape::Polynomial { .. } => powers(&sizes, sizes.len().max(1), 2.0 * COORDINATE + 1.0),
+            Shape::Surface { columns, .. } => powers(&sizes, columns, COORDINATE),
             Shape::Spline { .. } | Shape::Texture { .. } => {
                 let Some(Net { size, degree }) = shape.net() else { return 0.0 };
                 let spans = size.map(|count| (count - degree) as f64);
@@ -52,10 +53,10 @@ pub fn rounding(approximation: &Approximation) -> f64 {
 
 /// Horner's rule: number i takes part in 2 i + 1 operations, and its power of the coordinate has i
 /// times the error of it.
-fn powers(sizes: &[f64], columns: usize) -> f64 {
+fn powers(sizes: &[f64], columns: usize, coordinate: f64) -> f64 {
     let share = |(index, size): (usize, &f64)| {
         let degree = (index % columns + index / columns) as f64;
-        size * (degree * (COORDINATE + 2.0) + 2.0 + FACTORS)
+        size * (degree * (coordinate + 2.0) + 2.0 + FACTORS)
     };
     sizes.iter().enumerate().map(share).sum()
 }

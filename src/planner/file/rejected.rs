@@ -41,9 +41,7 @@ pub struct Rejected {
 /// What costs less than the choice and was rejected.
 pub(super) fn rejected(task: &Task, truth: &Truth, outcome: &Outcome) -> Result<Vec<Rejected>> {
     // Nearer to the tolerance the truth itself may be on the other side.
-    let whole = task.domain.whole();
-    let error = whole.map_or(0.0, |(region, f0)| truth.error(&region, f0, task.tolerance));
-    let fails = FAILS + error;
+    let fails = FAILS + outcome.truth_error;
     let limit = outcome.cost.weighed(&task.weights);
     let counts = |trial: &&Trial| match trial.verdict {
         // Polynomials with more numbers prove that those with fewer fail.
@@ -67,9 +65,10 @@ pub(super) fn rejected(task: &Task, truth: &Truth, outcome: &Outcome) -> Result<
         };
         trials.iter().enumerate().find_map(includes)
     };
+    let includers: Vec<Option<usize>> = (0..trials.len()).into_par_iter().map(includer).collect();
     // What includes an entry may be part of another one: the last of them has the proof.
     let last_includer =
-        |index: usize| std::iter::successors(includer(index), |&other| includer(other)).last();
+        |index: usize| std::iter::successors(includers[index], |&other| includers[other]).last();
     let text = |(index, trial): (usize, &&Trial)| {
         let mut text = Rejected {
             candidate: trial.candidate.to_string(),

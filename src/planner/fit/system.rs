@@ -2,6 +2,7 @@
 
 use super::{Problem, Row};
 use crate::approximation::shape::{Net, span};
+use crate::numeric::lanes::{Work, vectorised};
 use crate::planner::banded::Banded;
 use crate::planner::chebyshev::Chebyshev;
 
@@ -38,7 +39,10 @@ impl Functions {
             None => {
                 let width = counts[0].max(counts[1]);
                 let basis = Chebyshev::of(shape, region, width);
-                let values = samples.iter().flat_map(|sample| basis.at(sample)).collect();
+                let values = samples
+                    .iter()
+                    .flat_map(|sample| basis.at(sample.nov, sample.roughness))
+                    .collect();
                 let size = counts.iter().take(channels).sum();
                 Functions {
                     kind: Kind::Dense { counts: *counts, width, values },
@@ -47,15 +51,9 @@ impl Functions {
                     band: size,
                 }
             }
-            Some(Net { size: [columns, rows], degree }) => {
-                // Neighbours along the shorter side stand side by side: the band is narrower.
-                let is_wide = columns > rows;
-                let order = (0..columns * rows)
-                    .map(|index| {
-                        let (i, j) = (index % columns, index / columns);
-                        if is_wide { i * rows + j } else { index }
-                    })
-                    .collect();
+            Some(net) => {
+                let Net { size: [columns, rows], degree } = net;
+                let (order, band) = net.order();
                 let taps = degree + 1;
                 let offsets =
                     (0..taps * taps).map(|tap| tap / taps * columns + tap % taps).collect();
@@ -72,12 +70,11 @@ impl Functions {
                 let samples: Vec<(usize, [f64; 16])> = spans.collect();
                 let mut by_span: Vec<usize> = (0..samples.len()).collect();
                 by_span.sort_by_key(|&index| samples[index].0);
-                let band = channels * (degree * (columns.min(rows) + 1) + 1);
                 Functions {
                     kind: Kind::Spans { order, offsets, samples, by_span },
                     channels,
                     size: channels * columns * rows,
-                    band,
+                    band: channels * band,
                 }
             }
         }
@@ -85,6 +82,11 @@ impl Functions {
 
     /// The numbers that leave the smallest weighted sum of squares.
     pub fn solve(&self, rows: &[Row], ends: usize, weights: &[f64]) -> Option<Vec<f64>> {
+        vectorised(Solve { functions: self, rows, ends, weights })
+    }
+
+    #[inline(always)]
+    fn solution(&self, rows: &[Row], ends: usize, weights: &[f64]) -> Option<Vec<f64>> {
         let mut matrix = Banded::zeros(self.size, self.band);
         let mut side = vec![0.0; self.size];
         match &self.kind {
@@ -115,6 +117,7 @@ impl Functions {
         Some(side)
     }
 
+    #[inline(always)]
     fn add_dense(
         &self,
         (counts, values, width): ([usize; 2], &[f64], usize),
@@ -175,8 +178,26 @@ impl Functions {
     }
 }
 
+/// A system that is to be solved.
+struct Solve<'a> {
+    functions: &'a Functions,
+    rows: &'a [Row],
+    ends: usize,
+    weights: &'a [f64],
+}
+
+impl Work for Solve<'_> {
+    type Output = Option<Vec<f64>>;
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        self.functions.solution(self.rows, self.ends, self.weights)
+    }
+}
+
 /// Σ w g_c g_d for the pairs (0, 0), (1, 0) and (1, 1) of channels, and Σ w g_c target, over the
 /// rows of a sample.
+#[inline(always)]
 fn sums(rows: &[Row], weights: &[f64]) -> ([f64; 3], [f64; 2]) {
     let (mut products, mut targets) = ([0.0; 3], [0.0; 2]);
     for (Row { factors: [first, second], target, .. }, weight) in rows.iter().zip(weights) {
@@ -205,13 +226,15 @@ impl Local {
         Local { taps, first: 0, is_empty: true, products, targets }
     }
 
+    #[inline(always)]
     fn add(&mut self, functions: &[f64; 16], rows: &[Row], weights: &[f64]) {
         self.is_empty = false;
         let (products, targets) = sums(rows, weights);
         for (product, sum) in products.iter().zip(&mut self.products) {
             for (row, function) in sum.iter_mut().zip(functions).take(self.taps) {
                 let factor = product * function;
-                for (entry, function) in row.iter_mut().zip(functions).take(self.taps) {
+                // Those beyond the taps are 0.
+                for (entry, function) in row.iter_mut().zip(functions) {
                     *entry += factor * function;
                 }
             }
@@ -224,6 +247,7 @@ impl Local {
     }
 
     /// Adds it to the system and begins anew.
+    #[inline(always)]
     fn flush(
         &mut self,
         (order, offsets, channels): (&[usize], &[usize], usize),

@@ -1,66 +1,77 @@
 //! Polynomials in n·v for constant roughnesses: for each piece the one with the fewest numbers.
 
-use super::{Choice, MOST_POWERS, Search, Trial, Verdict};
-use crate::approximation::{Along, Approximation, Channels, Region, Shape};
-use crate::planner::candidate::{ALONG, Candidate, channels};
+use super::attempt::{Attempts, Passed, STEPS, Tried};
+use super::{Choice, MOST_POWERS, Search, Trial};
+use crate::approximation::{Along, Channels, Shape};
+use crate::planner::candidate::{Candidate, along, channels};
 use crate::planner::cost::Cost;
 use crate::planner::domain::Piece;
 use crate::planner::samples::{Sample, Spread, samples};
-use crate::planner::verify::{self, Worst};
+use crate::planner::verify;
 use rayon::prelude::*;
 
 /// Samples of a polynomial.
 const ALONG_A_LINE: [Spread; 2] = [Spread::Crowded(97), Spread::Crowded(1)];
 
-/// The search for a polynomial of one kind.
-struct Line<'a> {
-    search: &'a Search<'a>,
-    region: Region,
-    f0: [f64; 2],
+/// Polynomials in these channels and this coordinate, for a piece.
+struct Way<'a> {
+    attempts: Attempts<'a>,
+    channels: Channels,
+    x: Along,
     points: Vec<Sample>,
     /// Where numbers are verified.
     places: Vec<Sample>,
-    trials: Vec<Trial>,
-    best: Option<(Approximation, Worst, Cost)>,
+    /// The fewest numbers in each channel; none where however many are proved to fail.
+    fewest: Option<[usize; 2]>,
 }
 
-impl Line<'_> {
-    /// Whether candidates that differ in storage are proved to fail.
-    fn fails(&mut self, same: &[Candidate]) -> bool {
-        let problem = self.search.problem(&same[0], self.region, self.f0, &self.points);
-        // Numbers that meet the tolerance end it.
-        let Some(fit) = self.search.fit(&problem, 1.0) else { return false };
-        let failing = self.search.failing(same, self.region, self.f0, &fit);
-        let fails = !failing.is_empty();
-        self.trials.extend(failing);
-        fails
+impl Way<'_> {
+    /// The candidates with these numbers in each channel, which differ in storage.
+    fn of(&self, counts: [usize; 2]) -> [Candidate; 2] {
+        Candidate::polynomials(self.channels, self.x, counts)
     }
 
-    /// Tries candidates that differ in storage, where they cost less than the best so far.
-    fn attempt(&mut self, same: &[Candidate]) {
-        let cost = |candidate: &Candidate| Cost::of(candidate, &self.region);
-        let cheaper = same.iter().filter(|candidate| !self.is_beaten(cost(candidate)));
-        let same: Vec<Candidate> = cheaper.copied().collect();
-        let places = || self.places.clone();
-        let tried = self.search.attempt(&same, self.region, self.f0, &self.points, places);
-        for (trial, approximation) in tried {
-            if let (Verdict::Passes(worst), Some(approximation)) = (&trial.verdict, approximation) {
-                self.best = Some((approximation, *worst, trial.cost));
-            }
-            self.trials.push(trial);
+    /// Finds the fewest numbers in each channel that are not proved to fail, with as many as there
+    /// may be in the other one: the proofs that fewer fail.
+    fn find_fewest(&mut self) -> Vec<Trial> {
+        if self.channels.count() == 1 {
+            self.fewest = Some([1, 0]);
+            return Vec::new();
         }
+        let mut proofs = Vec::new();
+        let mut of_channel = |own: [usize; 2]| {
+            let counts = |few| own.map(|own| if own == 1 { few } else { MOST_POWERS });
+            (0..=MOST_POWERS).find(|&few| {
+                let same = self.of(counts(few));
+                let failing = self.attempts.refuted(&same, &self.points, STEPS);
+                let fails = !failing.is_empty();
+                proofs.extend(failing);
+                !fails
+            })
+        };
+        let fewest = of_channel([1, 0]).zip(of_channel([0, 1]));
+        self.fewest = fewest.map(|(first, second)| [first, second]);
+        proofs
     }
 
-    /// Whether the best so far costs no more than any of these.
-    fn is_done(&self, same: &[Candidate]) -> bool {
-        same.iter().all(|candidate| self.is_beaten(Cost::of(candidate, &self.region)))
+    /// The numbers in each channel that add up to a sum, each channel with the fewest at least.
+    fn splits(&self, sum: usize) -> Vec<[usize; 2]> {
+        let Some([first, second]) = self.fewest else { return Vec::new() };
+        let most = match self.channels.count() {
+            1 => 0,
+            _ => MOST_POWERS,
+        };
+        let is_possible = |&[own, other]: &[usize; 2]| {
+            (first..=MOST_POWERS).contains(&own) && (second..=most).contains(&other)
+        };
+        (0..=sum).map(|own| [own, sum - own]).filter(is_possible).collect()
     }
 
-    /// Whether the best so far costs no more than this.
-    fn is_beaten(&self, cost: Cost) -> bool {
-        let weights = &self.search.task.weights;
-        let best = self.best.as_ref();
-        best.is_some_and(|(_, _, least)| least.weighed(weights) <= cost.weighed(weights))
+    /// Tries the candidates that cost less than the limit.
+    fn attempt(&self, counts: [usize; 2], limit: f64) -> Vec<Tried> {
+        let is_cheaper = |candidate: &Candidate| self.attempts.cost(candidate) < limit;
+        let cheaper: Vec<Candidate> = self.of(counts).into_iter().filter(is_cheaper).collect();
+        self.attempts.attempt(&cheaper, &self.points, || self.places.clone())
     }
 }
 
@@ -85,69 +96,42 @@ impl Search<'_> {
         is_whole.then_some((choice, cost))
     }
 
-    /// The cheapest polynomial for a piece.
-    fn line(&self, piece: &Piece) -> (Option<(Approximation, Worst, Cost)>, Vec<Trial>) {
+    /// The cheapest polynomial for a piece: all ways with one number, then with two, and so on.
+    fn line(&self, piece: &Piece) -> (Option<Passed>, Vec<Trial>) {
         let region = self.task.domain.region_of(piece);
-        let forms = channels(piece.f0);
-        let ways: Vec<(Channels, Along)> =
-            forms.iter().flat_map(|&form| ALONG.map(|x| (form, x))).collect();
-        let of_way = |&(form, x): &(Channels, _)| self.shortest(form, x, region, piece.f0);
-        let found: Vec<_> = ways.par_iter().map(of_way).collect();
-        let mut trials = Vec::new();
-        let mut best: Option<(Approximation, Worst, Cost)> = None;
-        for (passed, tried) in found {
-            trials.extend(tried);
-            let Some((approximation, worst, cost)) = passed else { continue };
-            let is_cheaper = best.as_ref().is_none_or(|(_, _, least)| {
-                cost.weighed(&self.task.weights) < least.weighed(&self.task.weights)
-            });
-            if is_cheaper {
-                best = Some((approximation, worst, cost));
+        let attempts = Attempts { search: self, region, f0: piece.f0 };
+        let mut ways = ways(attempts);
+        let proofs: Vec<_> = ways.par_iter_mut().map(Way::find_fewest).collect();
+        let mut trials: Vec<Trial> = proofs.into_iter().flatten().collect();
+        let mut best: Option<Passed> = None;
+        for sum in 1..=2 * MOST_POWERS {
+            let least = best.as_ref().map(|(_, _, least)| attempts.weighed(*least));
+            let limit = least.unwrap_or(f64::INFINITY);
+            let splits = |way| Way::splits(way, sum).into_iter().map(move |counts| (way, counts));
+            let turn: Vec<(&Way, [usize; 2])> = ways.iter().flat_map(splits).collect();
+            let tried: Vec<Tried> = turn
+                .par_iter()
+                .flat_map_iter(|(way, counts)| way.attempt(*counts, limit))
+                .collect();
+            // More numbers cost no less.
+            if tried.is_empty() && !turn.is_empty() {
+                break;
             }
+            best = attempts.settle(tried, best, &mut trials);
         }
         (best, trials)
     }
+}
 
-    /// The polynomial with the fewest numbers in these channels and this coordinate.
-    fn shortest(
-        &self,
-        channels: Channels,
-        x: Along,
-        region: Region,
-        f0: [f64; 2],
-    ) -> (Option<(Approximation, Worst, Cost)>, Vec<Trial>) {
+/// Every way for a piece.
+fn ways(attempts: Attempts<'_>) -> Vec<Way<'_>> {
+    let Attempts { search, region, f0 } = attempts;
+    let of = |channels: Channels, x: Along| {
         let shape = Shape::Polynomial { x };
-        let points = samples(self.truth, &region, &shape, ALONG_A_LINE);
-        let places = verify::points(self.truth, &region, &shape);
-        let trials = Vec::new();
-        let mut line = Line { search: self, region, f0, points, places, trials, best: None };
-        let of = |counts| Candidate::polynomials(channels, x, counts);
-        if channels.count() == 1 {
-            for count in 1..=MOST_POWERS {
-                if line.is_done(&of([count, 0])) {
-                    break;
-                }
-                line.attempt(&of([count, 0]));
-            }
-            return (line.best, line.trials);
-        }
-        // With as many numbers as there may be in the other channel, how few are not proved to
-        // fail?
-        let fewest = [[1, 0], [0, 1]].map(|own: [usize; 2]| {
-            let counts = |few| own.map(|own| if own == 1 { few } else { MOST_POWERS });
-            (0..=MOST_POWERS).find(|&few| !line.fails(&of(counts(few))))
-        });
-        let [Some(first), Some(second)] = fewest else { return (None, line.trials) };
-        for sum in (first + second).max(1)..=2 * MOST_POWERS {
-            let most = MOST_POWERS.min(sum - second);
-            let firsts = first.max(sum.saturating_sub(MOST_POWERS))..=most;
-            if firsts.clone().all(|count| line.is_done(&of([count, sum - count]))) {
-                break;
-            }
-            for count in firsts {
-                line.attempt(&of([count, sum - count]));
-            }
-        }
-        (line.best, line.trials)
-    }
+        let points = samples(search.truth, &region, &shape, ALONG_A_LINE);
+        let places = verify::points(search.truth, &region, &shape);
+        Way { attempts, channels, x, points, places, fewest: None }
+    };
+    let along = along(&region);
+    channels(f0).iter().flat_map(|&form| along.iter().map(move |&x| of(form, x))).collect()
 }
