@@ -8,6 +8,7 @@ use splitsum::planner::check::by_reference;
 use splitsum::planner::cost::Weights;
 use splitsum::planner::domain::Domain;
 use splitsum::planner::engines::engines;
+use splitsum::planner::file::PlanFile;
 use splitsum::planner::search::{Outcome, Task, search};
 use splitsum::planner::tolerance::Tolerance;
 use splitsum::planner::truth::Truth;
@@ -77,7 +78,10 @@ fn row(domain: Domain, truth: &Truth) -> Result<Row> {
     let tolerance = Tolerance::Absolute(TOLERANCE);
     let weights = Weights::default();
     let task = Task { domain: domain.clone(), tolerance, weights, sampler: None };
-    let Outcome { choice, cost, .. } = search(&task, truth);
+    let outcome = search(&task, truth);
+    // The proofs belong to it.
+    PlanFile::new(&task, truth, &outcome, String::new())?;
+    let Outcome { choice, cost, .. } = outcome;
     let seconds = started.elapsed().as_secs_f64();
     let whole = domain.whole().map_or([0.0, 1.0], |(_, f0)| f0);
     let f0 = |index: usize| if choice.len() > 1 { domain.pieces[index].f0 } else { whole };
@@ -109,8 +113,7 @@ fn print(entries: &[Entry], rows: &[Row], known: &[(usize, usize)]) {
     println!(
         "Printed by `cargo run --release --example scenes`: `splitsum plan` at a tolerance of \
          {TOLERANCE} in E(F0), n·v from {LEAST_NOV}, for the materials of public glTF files. \
-         Errors are the largest at points that were not fitted to, by the reference rule; numbers \
-         of polynomials are floats. The columns of engines are the largest errors of exact A and B \
+         Errors are the largest at points that were not fitted to, by the reference rule. The columns of engines are the largest errors of exact A and B \
          at the nodes of their tables.\n"
     );
     let mut bytes: Vec<usize> = known.iter().map(|&(_, row)| rows[row].bytes).collect();
@@ -129,7 +132,21 @@ fn print(entries: &[Entry], rows: &[Row], known: &[(usize, usize)]) {
     println!("| largest bound that is proved | {bounded:.4} of the tolerance |");
     println!("| scenes whose whole domain it holds for | {:.0} % |", share(&is_proved));
     println!("| scenes that need no table | {:.0} % |", share(&|row| row.choice == "polynomials"));
-    println!("| time of a plan, largest | {:.0} ms |\n", 1e3 * largest(&|row| row.seconds));
+    let times = |of: &dyn Fn(&Row) -> bool| {
+        let mut times: Vec<f64> =
+            rows.iter().filter(|row| of(row)).map(|row| row.seconds).collect();
+        times.sort_by(f64::total_cmp);
+        let at = |share: f64| 1e3 * times[((times.len() - 1) as f64 * share) as usize];
+        format!("{:.0}, {:.0} and {:.0} ms", at(0.5), at(0.95), at(1.0))
+    };
+    let are_constant = times(&|row| row.domain.is_constant());
+    println!(
+        "| time of a plan with its proofs, constant roughnesses: median, 95 %, largest | {are_constant} |"
+    );
+    println!(
+        "| time of a plan, ranges of roughness | {} |\n",
+        times(&|row| !row.domain.is_constant())
+    );
     let names = ["three.js", "Bevy", "Unreal", "Filament", "HDRP's axes"];
     let engines = names.join(" | ");
     println!("| scene | roughnesses | choice | bytes | numbers | error | {engines} |");

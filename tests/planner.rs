@@ -72,8 +72,8 @@ fn it_takes_no_more_bytes_than_was_found_by_hand() {
     assert_eq!(outcome.cost.bytes, 2);
 }
 
-/// E(F0) = F of a mirror, and E = 1 - μ ln(1 + 1/μ) at roughness 1 (height-correlated Smith masking,
-/// whose integral over the hemisphere has this form at α = 1): one number and two.
+/// E(F0) = F of a mirror has one number, and E = 1 - μ ln(1 + 1/μ) at roughness 1 has two: GGX with
+/// height-correlated masking, whose integral over the hemisphere has this form at α = 1.
 #[test]
 fn closed_forms_are_found() {
     let chosen = |roughness: f64, f0: [f64; 2]| {

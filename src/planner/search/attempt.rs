@@ -109,7 +109,8 @@ impl Attempts<'_> {
                 Some(Verdict::NotFound(worst)) => worst.share - gain <= 1.0,
                 _ => false,
             };
-            if !may_pass || fit.is_finished() || first.shape.net().is_none() {
+            let has_ended = fit.is_finished() || fit.error > enough;
+            if !may_pass || has_ended || first.shape.net().is_none() {
                 break;
             }
         }

@@ -18,8 +18,8 @@ const IN_A_SPAN: [Spread; 2] = [Spread::Crowded(6); 2];
 /// Samples between the texels of a texture.
 const IN_A_TEXEL: [Spread; 2] = [Spread::Crowded(3); 2];
 
-/// Samples in a span of a spline where most are proved to fail: a bound at some of the points is one
-/// at all of them. Of 2 to 4, 3 is the fastest.
+/// Samples in a span of a spline where most are proved to fail: a bound at some of the points is
+/// one at all of them. Of 2 to 4, 3 is the fastest.
 const FEW_IN_A_SPAN: [Spread; 2] = [Spread::Crowded(3); 2];
 
 /// Steps of a fit at few samples.
