@@ -108,13 +108,27 @@ fn row(domain: Domain, truth: &Truth) -> Result<Row> {
     })
 }
 
+/// The median, the 95 % quantile and the largest of the times of plans for scenes whose roughnesses
+/// are constant, or are not.
+fn times(rows: &[Row], are_constant: bool) -> String {
+    let is_asked = |row: &&Row| row.domain.is_constant() == are_constant;
+    let mut times: Vec<f64> = rows.iter().filter(is_asked).map(|row| row.seconds).collect();
+    times.sort_by(f64::total_cmp);
+    let at = |share: f64| {
+        let index = (times.len().saturating_sub(1) as f64 * share) as usize;
+        1e3 * times.get(index).unwrap_or(&0.0)
+    };
+    format!("{:.0}, {:.0} and {:.0} ms", at(0.5), at(0.95), at(1.0))
+}
+
 fn print(entries: &[Entry], rows: &[Row], known: &[(usize, usize)]) {
     println!("# What 745 scenes need\n");
     println!(
         "Printed by `cargo run --release --example scenes`: `splitsum plan` at a tolerance of \
          {TOLERANCE} in E(F0), n·v from {LEAST_NOV}, for the materials of public glTF files. \
-         Errors are the largest at points that were not fitted to, by the reference rule. The columns of engines are the largest errors of exact A and B \
-         at the nodes of their tables.\n"
+         Errors are the largest at points that were not fitted to, by the reference rule. \
+         The columns of engines are the largest errors of exact A and B at the nodes of their \
+         tables.\n"
     );
     let mut bytes: Vec<usize> = known.iter().map(|&(_, row)| rows[row].bytes).collect();
     bytes.sort_unstable();
@@ -132,21 +146,9 @@ fn print(entries: &[Entry], rows: &[Row], known: &[(usize, usize)]) {
     println!("| largest bound that is proved | {bounded:.4} of the tolerance |");
     println!("| scenes whose whole domain it holds for | {:.0} % |", share(&is_proved));
     println!("| scenes that need no table | {:.0} % |", share(&|row| row.choice == "polynomials"));
-    let times = |of: &dyn Fn(&Row) -> bool| {
-        let mut times: Vec<f64> =
-            rows.iter().filter(|row| of(row)).map(|row| row.seconds).collect();
-        times.sort_by(f64::total_cmp);
-        let at = |share: f64| 1e3 * times[((times.len() - 1) as f64 * share) as usize];
-        format!("{:.0}, {:.0} and {:.0} ms", at(0.5), at(0.95), at(1.0))
-    };
-    let are_constant = times(&|row| row.domain.is_constant());
-    println!(
-        "| time of a plan with its proofs, constant roughnesses: median, 95 %, largest | {are_constant} |"
-    );
-    println!(
-        "| time of a plan, ranges of roughness | {} |\n",
-        times(&|row| !row.domain.is_constant())
-    );
+    println!("| time of a plan with its proofs: median, 95 % and largest | |");
+    println!("| where roughnesses are constant | {} |", times(rows, true));
+    println!("| where some are ranges | {} |\n", times(rows, false));
     let names = ["three.js", "Bevy", "Unreal", "Filament", "HDRP's axes"];
     let engines = names.join(" | ");
     println!("| scene | roughnesses | choice | bytes | numbers | error | {engines} |");

@@ -196,6 +196,22 @@ fn a_check_finds_one_wrong_number_and_one_wrong_multiplier() {
     refused(&plan, "E(F0) errs by");
 }
 
+/// Whatever counts, what the search did not try costs no less than its choice: a check looks.
+#[test]
+fn a_check_misses_no_candidate_whatever_counts() {
+    let folder = tempdir().unwrap();
+    for (question, cost) in [
+        ("--roughness 0.3,0.7 --f0 0.04..1", "operations=1"),
+        ("--roughness 0.2,0.5", "operations=1"),
+        ("--roughness 0.3,0.9 --f0 0..1", "bytes=1,loads=16,operations=1"),
+        ("--roughness 0.6 --f0 0.04", "loads=1"),
+        ("--roughness 0.3..1 --tolerance 0.02", "loads=16,operations=1"),
+    ] {
+        ok(&folder, &format!("plan {question} --cost {cost} -o a.toml"));
+        ok(&folder, "plan --check a.toml");
+    }
+}
+
 #[test]
 fn a_proof_is_of_the_candidates_that_cost_less() {
     let task = task(1e-3, 8e-3, [0.0, 1.0], &[[0.2, 1.0]]);

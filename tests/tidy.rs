@@ -241,7 +241,9 @@ fn the_page_of_accuracy_has_the_rules_and_their_bounds() {
 
 #[test]
 fn lines_have_at_most_a_hundred_columns() {
-    for (path, text) in ["src", "tests", "benches", "shaders"].into_iter().flat_map(files) {
+    for (path, text) in
+        ["src", "tests", "benches", "examples", "shaders"].into_iter().flat_map(files)
+    {
         let code = path.ends_with(".rs") || path.ends_with(".wgsl");
         for (i, line) in text.lines().enumerate().filter(|_| code) {
             let columns = line.chars().count();

@@ -40,8 +40,9 @@ pub struct Lookup<'a> {
 
 impl Lookup<'_> {
     /// Operations on floats of a lookup of the channels and of E(F0): a sum, a product, a minimum,
-    /// a maximum or a conversion is 1, a division or a root 4, a power 12. The numbers of
-    /// polynomials count as constants, whose codes a compiler decodes. A model, no measurement.
+    /// a maximum or a conversion is 1, a division or a root 4, a logarithm 6, a power 12. The
+    /// numbers of polynomials count as constants, whose codes a compiler decodes. A model, no
+    /// measurement.
     pub fn operations(&self) -> usize {
         let channels = self.channels.count();
         let steps: usize =

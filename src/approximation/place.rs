@@ -13,8 +13,8 @@ pub enum Along {
     Sqrt,
     /// ∛(n·v)
     Cbrt,
-    /// μ ln(1 + 1/μ)/ln 2 with μ = n·v, which is counted from 0: GGX with height-correlated masking
-    /// has E = 1 - μ ln(1 + 1/μ) at α = 1, and rough surfaces are alike.
+    /// μ ln(1 + 1/μ)/ln 2 with μ = n·v: GGX with height-correlated masking has
+    /// E = 1 - μ ln(1 + 1/μ) at α = 1, and the integrals of other rough surfaces are much like it.
     Log,
     /// T = √(μ(1 + kα)/(μ + kα)) with μ = n·v. Near n·v = α = 0 the integrals are functions of
     /// n·v/α alone: T resolves that layer, whatever α.
@@ -100,6 +100,9 @@ fn log(nov: f64) -> f64 {
 
 /// The μ of that, by halving.
 fn inverse_log(place: f64) -> f64 {
+    if place <= 0.0 {
+        return 0.0;
+    }
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..64 {
         let middle = 0.5 * (low + high);
@@ -162,4 +165,24 @@ fn parameter(word: &str, mark: &str, expected: &str) -> Result<f64> {
     number.filter(|number| *number > 0.0 && *number <= 1e3).ok_or_else(|| {
         Error::bad_input("coordinate", expected, format!("'{word}'"), "name one of these")
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The n·v at a place has that place, and both ends are exact.
+    #[test]
+    fn a_place_is_found_again() {
+        let all = [Along::Nov, Along::Sqrt, Along::Cbrt, Along::Log, Along::Layer(3.0)];
+        for (along, least) in all.into_iter().flat_map(|along| [(along, 0.0), (along, 1e-3)]) {
+            assert_eq!(along.inverse(least, 0.0, 0.3), least, "{along:?}");
+            assert_eq!(along.inverse(least, 1.0, 0.3), 1.0, "{along:?}");
+            for place in (1..100).map(|i| f64::from(i) / 100.0) {
+                let found: f64 = along.at(least, along.inverse(least, place, 0.3), 0.3);
+                // n·v less its least is off by a unit of 1; roots and logarithms multiply it.
+                assert!((found - place).abs() < 1e-12, "{along:?} from {least}: {place}, {found}");
+            }
+        }
+    }
 }

@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bound {
-    /// The error over its tolerance.
+    /// The error over its tolerance; where it exceeds 1, the rest of the region was not looked at.
     pub share: f64,
     /// The smoothest roughness that it holds for: the interpolant of the truth begins there.
     pub from: f64,
@@ -97,8 +97,16 @@ pub fn bound(
         Cell { u: [part(i, CELLS[0]), part(i + 1, CELLS[0])], t: [t(j), t(j + 1)] }
     };
     let cells: Vec<Cell> = (0..CELLS[0] * strips).map(cell).collect();
-    let found: Vec<Found> = cells.par_iter().map(|cell| question.cell(cell, MOST_POINTS)).collect();
-    let Found { share, points } = found.into_iter().fold(Found::default(), Found::and);
+    let mut found = Found::default();
+    for strip in cells.chunks(CELLS[0]) {
+        let of_cell = |cell| question.cell(cell, MOST_POINTS);
+        let all: Vec<Found> = strip.par_iter().map(of_cell).collect();
+        found = all.into_iter().fold(found, Found::and);
+        if found.misses() {
+            break;
+        }
+    }
+    let Found { share, points } = found;
     Some(Bound { share, from, points })
 }
 
@@ -127,6 +135,11 @@ struct Found {
 }
 
 impl Found {
+    /// Whether a bound exceeds the tolerance: no other cell changes that.
+    fn misses(&self) -> bool {
+        self.share > 1.0
+    }
+
     /// In both.
     fn and(self, other: Found) -> Found {
         // What is no number counts as the largest.
@@ -205,6 +218,9 @@ impl Question<'_> {
         for (index, part) in parts.iter().enumerate() {
             let left = most_points.saturating_sub(found.points) / (parts.len() - index);
             found = found.and(self.cell(part, left));
+            if found.misses() {
+                break;
+            }
         }
         found
     }

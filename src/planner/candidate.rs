@@ -158,7 +158,7 @@ pub fn along(region: &Region) -> Vec<Along> {
     let is_possible = |x: &Along| match x {
         // A mirror has no layer.
         Along::Layer(_) => region.roughness[0] > 0.0,
-        // No bound is finite where its slope is not.
+        // At n·v = 0 its derivatives have no bound.
         Along::Log => region.least_nov > 0.0,
         Along::Nov | Along::Sqrt | Along::Cbrt => true,
     };

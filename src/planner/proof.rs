@@ -22,9 +22,9 @@ pub const LARGEST_NUMBER: f64 = 1e6;
 /// Digits of the points and multipliers that are kept.
 const DIGITS: (usize, usize) = (6, 15);
 
-/// Added to the diagonal of functions of size 1: those that depend on others but for rounding stay
-/// at rest.
-const REGULARISATION: f64 = 1e-14;
+/// Added to the diagonal of functions of size 1, so that those that depend on others but for
+/// rounding stay at rest: the first that leaves a matrix positive definite.
+const REGULARISATIONS: [f64; 3] = [1e-14, 1e-13, 1e-12];
 
 /// Steps of a projection at the most. A step leaves a share of 1e-6 of what is not orthogonal to
 /// most functions, and a large one of what is not to those that nearly depend on others.
@@ -219,8 +219,11 @@ impl Rows {
                 }
             }
         }
-        matrix.regularise(REGULARISATION);
-        matrix.factorise()?;
+        let matrix = REGULARISATIONS.into_iter().find_map(|share| {
+            let mut matrix = matrix.clone();
+            matrix.regularise(share);
+            matrix.factorise().map(|()| matrix)
+        })?;
         let mut weights: Vec<f64> = points.iter().map(|point| point.weight).collect();
         for _ in 0..PROJECTIONS {
             let mut sums = vec![0.0; self.size];

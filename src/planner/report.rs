@@ -23,7 +23,7 @@ pub struct Report {
     pub model_errors: Vec<ModelError>,
     /// What the tables of engines give for the same.
     pub engines: Vec<Engine>,
-    /// Seconds of the search.
+    /// Seconds of the search, with its proofs.
     pub seconds: f64,
 }
 

@@ -200,7 +200,7 @@ fn legend(svg: &mut Svg) {
     for (mark, text) in [
         (Mark::Triangle, "proved to err by at least this"),
         (Mark::Cross, "the best numbers found"),
-        (Mark::Dot, "meets the tolerance"),
+        (Mark::Dot, "within it at points"),
     ] {
         svg.path(mark.class(), &mark.path([x, 10.0]));
         svg.text([x + 9.0, 14.0], "d", text);
@@ -217,7 +217,8 @@ fn caption(report: &Report, outcome: &Outcome) -> String {
     let mut text = format!(
         "{} candidates were tried, from the cheapest on: {} are proved to miss the tolerance \
          whatever their numbers are (the triangle is the lower bound of their error), for {} no \
-         good numbers were found, {} meet it. Both axes are logarithmic. What counts for the cost \
+         good numbers were found, {} are within it where they were measured. Both axes are \
+         logarithmic. What counts for the cost \
          is {}.",
         whole(outcome.trials.len()),
         count(|verdict| matches!(verdict, Verdict::Fails { .. })),

@@ -86,7 +86,7 @@ impl Attempts<'_> {
         let (truth, tolerance) = (self.search.truth, self.search.task.tolerance);
         let places = std::cell::LazyCell::new(places);
         let mut tried = Vec::new();
-        // Where the cheapest storage of a net loses the tolerance by rounding, the fit goes on.
+        // Where the cheapest storage of a net loses the tolerance by rounding, it is fitted anew.
         for enough in [ENOUGH, 0.0] {
             let Some(mut fit) = self.fit(first, samples, STEPS, enough) else {
                 let unsolved = || Verdict::NotFound(Worst::unknown(self.f0[0]));
@@ -105,12 +105,15 @@ impl Attempts<'_> {
             tried = same.iter().map(measured).collect();
             // A better fit takes off no more than what it is above its bound.
             let gain = fit.error - fit.bound;
-            let may_pass = match tried.first().map(|(trial, _)| &trial.verdict) {
-                Some(Verdict::NotFound(worst)) => worst.share - gain <= 1.0,
+            let gains = match tried.first().map(|(trial, _)| &trial.verdict) {
+                // Within the tolerance at points alone it may be beyond it between them.
+                Some(Verdict::NotFound(worst) | Verdict::Passes(worst)) => {
+                    worst.share > PASSES - self.search.truth_error && worst.share - gain <= 1.0
+                }
                 _ => false,
             };
             let has_ended = fit.is_finished() || fit.error > enough;
-            if !may_pass || has_ended || first.shape.net().is_none() {
+            if !gains || has_ended || first.shape.net().is_none() {
                 break;
             }
         }

@@ -1,4 +1,4 @@
-//! Polynomials in n·v for constant roughnesses: for each piece the one with the fewest numbers.
+//! Polynomials in n·v for constant roughnesses: for each piece the cheapest one.
 
 use super::attempt::{Attempts, Passed, STEPS, Tried};
 use super::{Choice, MOST_POWERS, Search, Trial};
@@ -113,8 +113,10 @@ impl Search<'_> {
                 .par_iter()
                 .flat_map_iter(|(way, counts)| way.attempt(*counts, limit))
                 .collect();
-            // More numbers cost no less.
-            if tried.is_empty() && !turn.is_empty() {
+            // More numbers in the same way cost no less; a way that begins later may cost less.
+            let begins = |way: &Way| way.fewest.map_or(0, |fewest| fewest.iter().sum());
+            let have_begun = ways.iter().all(|way| begins(way) <= sum);
+            if tried.is_empty() && have_begun {
                 break;
             }
             best = attempts.settle(tried, best, &mut trials);
