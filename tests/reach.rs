@@ -80,7 +80,8 @@ fn what_may_be_met_is_not_out_of_reach() {
 fn a_search_ends_early_where_the_tolerance_is_out_of_reach() {
     let outcome = search(&task([0.0, 1.0], 1e-5), &TRUTH);
     assert!(outcome.choice.is_empty());
+    // It ends after 256 shapes and the largest of each kind.
     let all = over_roughness([0.0, 1.0]).len();
-    assert!(outcome.trials.len() * 20 < all, "{} of {all}", outcome.trials.len());
+    assert!(outcome.trials.len() * 10 < all, "{} of {all}", outcome.trials.len());
     assert!(outcome.trials.iter().all(|trial| matches!(trial.verdict, Verdict::Fails { .. })));
 }

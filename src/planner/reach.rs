@@ -66,12 +66,18 @@ fn far(
 
 /// Those with the most numbers of each kind, in their order.
 fn largest(candidates: &[Candidate]) -> Vec<Candidate> {
-    let is_largest = |own: &&Candidate| {
-        let is_larger =
-            |other: &Candidate| is_of_kind(&other.shape, &own.shape) && other.counts > own.counts;
-        !candidates.iter().any(is_larger)
-    };
-    candidates.iter().filter(is_largest).copied().collect()
+    let mut largest: Vec<Candidate> = Vec::new();
+    for candidate in candidates {
+        let is_other = |own: &Candidate| !is_of_kind(&own.shape, &candidate.shape);
+        let best = largest.iter().find(|own| !is_other(own)).map(|own| own.counts);
+        if best.is_some_and(|best| best < candidate.counts) {
+            largest.retain(is_other);
+        }
+        if best.is_none_or(|best| best <= candidate.counts) {
+            largest.push(*candidate);
+        }
+    }
+    largest
 }
 
 /// Whether two shapes differ in their sizes alone.

@@ -56,12 +56,14 @@ pub(super) fn rejected(task: &Task, truth: &Truth, outcome: &Outcome) -> Result<
     let includer = |index: usize| {
         let own = trials[index];
         let includes = |(place, other): (usize, &&Trial)| {
-            let is_failing = matches!(other.verdict, Verdict::Fails { .. });
             let is_same = other.region == own.region && other.f0 == own.f0;
-            // Of two of the same shape the first has the proof.
-            let is_back = own.candidate.includes(&other.candidate) && place > index;
-            let includes = other.candidate.includes(&own.candidate);
-            (place != index && is_failing && is_same && includes && !is_back).then_some(place)
+            let includes = place != index
+                && is_same
+                && matches!(other.verdict, Verdict::Fails { .. })
+                && other.candidate.includes(&own.candidate)
+                // Of two of the same shape the first has the proof.
+                && (place < index || !own.candidate.includes(&other.candidate));
+            includes.then_some(place)
         };
         trials.iter().enumerate().find_map(includes)
     };

@@ -10,8 +10,8 @@ use crate::planner::samples::{Sample, Spread, samples};
 use crate::planner::verify;
 use rayon::prelude::*;
 
-/// Samples of a polynomial.
-const ALONG_A_LINE: [Spread; 2] = [Spread::Crowded(97), Spread::Crowded(1)];
+/// Samples of a polynomial: five times as many as the largest has powers.
+const ALONG_A_LINE: [Spread; 2] = [Spread::Crowded(71), Spread::Crowded(1)];
 
 /// Polynomials in these channels and this coordinate, for a piece.
 struct Way<'a> {

@@ -36,7 +36,7 @@ const BESIDE: [Spread; 2] = [Spread::Crowded(17), Spread::Crowded(13)];
 const AT_A_TIME: usize = 16;
 
 /// Turns after which the largest candidates are tried: most plans are found before.
-const TURNS: usize = 4;
+const TURNS: usize = 16;
 
 impl Search<'_> {
     /// The cheapest shape over all roughnesses, cheaper than the limit.
