@@ -61,14 +61,24 @@ impl Candidate {
     /// The texture whose texels are integrals; none of other shapes.
     pub fn exact(&self, truth: &Truth, region: Region) -> Option<Approximation> {
         let Shape::Texture { texels: Texels::Exact, .. } = self.shape else { return None };
-        let numbers = self.integrals(truth)?;
-        let numbers = numbers.iter().map(|texels| self.storage.store_texels(texels)).collect();
+        let integrals = self.integrals(truth)?;
+        Some(self.of_integrals(&integrals, truth.lobe(), region))
+    }
+
+    /// The texture with these integrals of each channel.
+    pub fn of_integrals(
+        &self,
+        integrals: &[Vec<f64>],
+        lobe: Microfacet,
+        region: Region,
+    ) -> Approximation {
+        let numbers = integrals.iter().map(|texels| self.storage.store_texels(texels)).collect();
         let Candidate { channels, shape, .. } = *self;
-        Some(Approximation { lobe: truth.lobe(), region, channels, shape, numbers })
+        Approximation { lobe, region, channels, shape, numbers }
     }
 
     /// The integrals at the texels of a texture, for each channel; none of other shapes.
-    fn integrals(&self, truth: &Truth) -> Option<Vec<Vec<f64>>> {
+    pub fn integrals(&self, truth: &Truth) -> Option<Vec<Vec<f64>>> {
         let Shape::Texture { x, y, .. } = self.shape else { return None };
         let novs = x.values();
         let row = |&value: &f64| {

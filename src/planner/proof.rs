@@ -81,9 +81,13 @@ impl Claim<'_> {
 
     /// The functions with their factors in E(F0), by their place in the system.
     fn row(&self, point: &Multiplier) -> Vec<(usize, f64)> {
+        self.in_channels(point, &self.functions(point.nov, point.roughness))
+    }
+
+    /// These functions with the factors of channels in E(F0), by their place in the system.
+    fn in_channels(&self, point: &Multiplier, functions: &[(usize, f64)]) -> Vec<(usize, f64)> {
         let Candidate { channels, counts, .. } = self.candidate;
         let factors = channels.weights(point.nov, point.f0);
-        let functions = self.functions(point.nov, point.roughness);
         let of_channel = |channel: usize| {
             let (first, factor) = (channel * counts[0], factors[channel]);
             let own = functions.iter().filter(move |(index, _)| *index < counts[channel]);
@@ -109,13 +113,8 @@ impl Claim<'_> {
         }
         let basis = Chebyshev::of(shape, self.region, counts[0].max(counts[1]));
         let row = |point: &Multiplier| {
-            let factors = channels.weights(point.nov, point.f0);
-            let functions = basis.at(point.nov, point.roughness);
-            let of_channel = |channel: usize| {
-                let (factor, own) = (factors[channel], functions[..counts[channel]].to_vec());
-                own.into_iter().map(move |value| factor * value)
-            };
-            (0..count).flat_map(of_channel).enumerate().collect()
+            let functions = basis.at(point.nov, point.roughness).into_iter().enumerate();
+            self.in_channels(point, &functions.collect::<Vec<_>>())
         };
         let size = counts.iter().take(count).sum();
         Rows { rows: points.iter().map(row).collect(), size, band: size }

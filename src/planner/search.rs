@@ -88,8 +88,8 @@ pub struct Outcome {
     pub cost: Cost,
     /// Everything that was tried.
     pub trials: Vec<Trial>,
-    /// The error of the truth over the tolerance.
-    pub truth_error: f64,
+    /// A lower bound of the error over its tolerance that fails a candidate.
+    pub fails: f64,
 }
 
 /// Most roughnesses that have a polynomial each; real scenes have up to 40.
@@ -103,7 +103,7 @@ pub const MOST_POWERS: usize = 14;
 pub const PASSES: f64 = 0.98;
 
 /// A lower bound of the error over its tolerance that fails a candidate: proofs are rounded.
-pub const FAILS: f64 = 1.001;
+const FAILS: f64 = 1.001;
 
 /// The cheapest choice that meets the tolerance; none among the candidates is an empty choice.
 pub fn search(task: &Task, truth: &Truth) -> Outcome {
@@ -117,7 +117,7 @@ pub fn search(task: &Task, truth: &Truth) -> Outcome {
     let limit = lines.as_ref().map(|(_, cost)| cost.weighed(&task.weights));
     let chosen = search.over_roughness(limit, &mut trials).or(lines);
     let (choice, cost) = chosen.unwrap_or_default();
-    Outcome { choice, cost, trials, truth_error }
+    Outcome { choice, cost, trials, fails: search.fails() }
 }
 
 /// A choice and its cost.

@@ -4,7 +4,7 @@ use crate::approximation::{Shape, Texels};
 use crate::error::{Error, Result};
 use crate::planner::fit::Multiplier;
 use crate::planner::proof::Claim;
-use crate::planner::search::{FAILS, Outcome, Task, Trial, Verdict};
+use crate::planner::search::{Outcome, Task, Trial, Verdict};
 use crate::planner::truth::Truth;
 use crate::planner::verify::Worst;
 use rayon::prelude::*;
@@ -40,8 +40,6 @@ pub struct Rejected {
 
 /// What costs less than the choice and was rejected.
 pub(super) fn rejected(task: &Task, truth: &Truth, outcome: &Outcome) -> Result<Vec<Rejected>> {
-    // Nearer to the tolerance the truth itself may be on the other side.
-    let fails = FAILS + outcome.truth_error;
     let limit = outcome.cost.weighed(&task.weights);
     let counts = |trial: &&Trial| match trial.verdict {
         // Polynomials with more numbers prove that those with fewer fail.
@@ -105,7 +103,9 @@ pub(super) fn rejected(task: &Task, truth: &Truth, outcome: &Outcome) -> Result<
                 let is_exact =
                     matches!(trial.candidate.shape, Shape::Texture { texels: Texels::Exact, .. });
                 let Worst { nov, roughness, f0, .. } = *worst;
-                text.witness = (is_exact && worst.share > fails).then_some([nov, roughness, f0]);
+                // Nearer to the tolerance the truth itself may be on the other side.
+                text.witness =
+                    (is_exact && worst.share > outcome.fails).then_some([nov, roughness, f0]);
             }
         }
         Ok(text)

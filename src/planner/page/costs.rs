@@ -218,8 +218,7 @@ fn caption(report: &Report, outcome: &Outcome) -> String {
         "{} candidates were tried, from the cheapest on: {} are proved to miss the tolerance \
          whatever their numbers are (the triangle is the lower bound of their error), for {} no \
          good numbers were found, {} are within it where they were measured. Both axes are \
-         logarithmic. What counts for the cost \
-         is {}.",
+         logarithmic. What counts for the cost is {}.",
         whole(outcome.trials.len()),
         count(|verdict| matches!(verdict, Verdict::Fails { .. })),
         count(|verdict| matches!(verdict, Verdict::NotFound(_))),

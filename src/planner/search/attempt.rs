@@ -8,6 +8,8 @@ use crate::planner::cost::Cost;
 use crate::planner::fit::{Effort, Fit, Problem};
 use crate::planner::samples::Sample;
 use crate::planner::verify::{self, Worst};
+use std::cell::LazyCell;
+use std::ops::Deref;
 
 /// Steps of a fit.
 pub const STEPS: usize = 24;
@@ -31,8 +33,13 @@ pub struct Attempts<'a> {
 
 impl Attempts<'_> {
     /// The cost as one number.
-    pub fn weighed(&self, cost: Cost) -> f64 {
+    fn weighed(&self, cost: Cost) -> f64 {
         cost.weighed(&self.search.task.weights)
+    }
+
+    /// What the best so far costs; infinite where there is none.
+    pub fn least(&self, best: Option<&Passed>) -> f64 {
+        best.map_or(f64::INFINITY, |(_, _, cost)| self.weighed(*cost))
     }
 
     /// What a candidate costs.
@@ -59,32 +66,32 @@ impl Attempts<'_> {
     }
 
     /// The trials of candidates that this fit proves to fail; none where it does not.
-    fn failing(&self, same: &[Candidate], fit: &Fit) -> Vec<Trial> {
+    fn failing(&self, same: &[Candidate], fit: &Fit) -> Vec<Tried> {
         if fit.bound <= self.search.fails() {
             return Vec::new();
         }
         let verdict = || Verdict::Fails { bound: fit.bound, proof: fit.proof.clone() };
-        same.iter().map(|candidate| self.trial(candidate, verdict())).collect()
+        same.iter().map(|candidate| (self.trial(candidate, verdict()), None)).collect()
     }
 
     /// The trials of candidates that differ in storage, where a fit to these samples proves within
     /// so many steps that they fail; none where it does not.
-    pub fn refuted(&self, same: &[Candidate], samples: &[Sample], steps: usize) -> Vec<Trial> {
+    pub fn refuted(&self, same: &[Candidate], samples: &[Sample], steps: usize) -> Vec<Tried> {
         // Numbers that meet the tolerance at the samples end it.
         let fit = same.first().and_then(|first| self.fit(first, samples, steps, 1.0));
         fit.map(|fit| self.failing(same, &fit)).unwrap_or_default()
     }
 
     /// Fits candidates that differ in storage to samples, and measures them at these places.
-    pub fn attempt(
+    pub fn attempt<P: Deref<Target = [Sample]>>(
         &self,
         same: &[Candidate],
         samples: &[Sample],
-        places: impl FnOnce() -> Vec<Sample>,
+        places: impl FnOnce() -> P,
     ) -> Vec<Tried> {
         let Some(first) = same.first() else { return Vec::new() };
         let (truth, tolerance) = (self.search.truth, self.search.task.tolerance);
-        let places = std::cell::LazyCell::new(places);
+        let places = LazyCell::new(places);
         let mut tried = Vec::new();
         // Where the cheapest storage of a net loses the tolerance by rounding, it is fitted anew.
         for enough in [ENOUGH, 0.0] {
@@ -94,7 +101,7 @@ impl Attempts<'_> {
             };
             let failing = self.failing(same, &fit);
             if !failing.is_empty() {
-                return failing.into_iter().map(|trial| (trial, None)).collect();
+                return failing;
             }
             first.fill(&mut fit, truth, &self.region, samples);
             let measured = |candidate: &Candidate| {
@@ -152,9 +159,7 @@ impl Attempts<'_> {
         });
         for (index, approximation) in passing {
             let trial = &mut trials[index];
-            let is_cheaper =
-                |(_, _, least): &Passed| self.weighed(trial.cost) < self.weighed(*least);
-            if !best.as_ref().is_none_or(is_cheaper) {
+            if self.weighed(trial.cost) >= self.least(best.as_ref()) {
                 break;
             }
             let Verdict::Passes(worst) = trial.verdict else { continue };
@@ -181,7 +186,7 @@ impl Attempts<'_> {
 
 impl Search<'_> {
     /// A lower bound of the error over its tolerance that fails a candidate.
-    fn fails(&self) -> f64 {
+    pub(super) fn fails(&self) -> f64 {
         FAILS + self.truth_error
     }
 

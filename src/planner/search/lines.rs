@@ -18,9 +18,9 @@ struct Way<'a> {
     attempts: Attempts<'a>,
     channels: Channels,
     x: Along,
-    points: Vec<Sample>,
+    points: &'a [Sample],
     /// Where numbers are verified.
-    places: Vec<Sample>,
+    places: &'a [Sample],
     /// The fewest numbers in each channel; none where however many are proved to fail.
     fewest: Option<[usize; 2]>,
 }
@@ -43,9 +43,9 @@ impl Way<'_> {
             let counts = |few| own.map(|own| if own == 1 { few } else { MOST_POWERS });
             (0..=MOST_POWERS).find(|&few| {
                 let same = self.of(counts(few));
-                let failing = self.attempts.refuted(&same, &self.points, STEPS);
+                let failing = self.attempts.refuted(&same, self.points, STEPS);
                 let fails = !failing.is_empty();
-                proofs.extend(failing);
+                proofs.extend(failing.into_iter().map(|(trial, _)| trial));
                 !fails
             })
         };
@@ -71,7 +71,7 @@ impl Way<'_> {
     fn attempt(&self, counts: [usize; 2], limit: f64) -> Vec<Tried> {
         let is_cheaper = |candidate: &Candidate| self.attempts.cost(candidate) < limit;
         let cheaper: Vec<Candidate> = self.of(counts).into_iter().filter(is_cheaper).collect();
-        self.attempts.attempt(&cheaper, &self.points, || self.places.clone())
+        self.attempts.attempt(&cheaper, self.points, || self.places)
     }
 }
 
@@ -100,13 +100,24 @@ impl Search<'_> {
     fn line(&self, piece: &Piece) -> (Option<Passed>, Vec<Trial>) {
         let region = self.task.domain.region_of(piece);
         let attempts = Attempts { search: self, region, f0: piece.f0 };
-        let mut ways = ways(attempts);
+        // They are the same for every coordinate.
+        let shape = Shape::Polynomial { x: Along::Nov };
+        let points = samples(self.truth, &region, &shape, ALONG_A_LINE);
+        let places = verify::points(self.truth, &region, &shape);
+        let of = |&(channels, x): &(Channels, Along)| Way {
+            attempts,
+            channels,
+            x,
+            points: &points,
+            places: &places,
+            fewest: None,
+        };
+        let mut ways: Vec<Way> = kinds(attempts).iter().map(of).collect();
         let proofs: Vec<_> = ways.par_iter_mut().map(Way::find_fewest).collect();
         let mut trials: Vec<Trial> = proofs.into_iter().flatten().collect();
         let mut best: Option<Passed> = None;
         for sum in 1..=2 * MOST_POWERS {
-            let least = best.as_ref().map(|(_, _, least)| attempts.weighed(*least));
-            let limit = least.unwrap_or(f64::INFINITY);
+            let limit = attempts.least(best.as_ref());
             let splits = |way| Way::splits(way, sum).into_iter().map(move |counts| (way, counts));
             let turn: Vec<(&Way, [usize; 2])> = ways.iter().flat_map(splits).collect();
             let tried: Vec<Tried> = turn
@@ -125,15 +136,8 @@ impl Search<'_> {
     }
 }
 
-/// Every way for a piece.
-fn ways(attempts: Attempts<'_>) -> Vec<Way<'_>> {
-    let Attempts { search, region, f0 } = attempts;
-    let of = |channels: Channels, x: Along| {
-        let shape = Shape::Polynomial { x };
-        let points = samples(search.truth, &region, &shape, ALONG_A_LINE);
-        let places = verify::points(search.truth, &region, &shape);
-        Way { attempts, channels, x, points, places, fewest: None }
-    };
+/// The channels and the coordinates of every way for a piece.
+fn kinds(Attempts { region, f0, .. }: Attempts<'_>) -> Vec<(Channels, Along)> {
     let along = along(&region);
-    channels(f0).iter().flat_map(|&form| along.iter().map(move |&x| of(form, x))).collect()
+    channels(f0).iter().flat_map(|&form| along.iter().map(move |&x| (form, x))).collect()
 }

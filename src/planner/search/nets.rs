@@ -8,6 +8,7 @@ use crate::planner::reach::out_of_reach;
 use crate::planner::samples::{BESIDE_THE_LAYER, ON_THE_LAYER, Sample, Spread, on_grid, samples};
 use crate::planner::verify;
 use rayon::prelude::*;
+use std::cell::LazyCell;
 
 /// Samples of a surface.
 const ON_A_SURFACE: [Spread; 2] = [Spread::Crowded(33), Spread::Crowded(25)];
@@ -74,8 +75,7 @@ impl Search<'_> {
                     return None;
                 }
             }
-            let least = best.as_ref().map(|(_, _, least)| attempts.weighed(*least));
-            if least.is_some_and(|least| cost(&batch[0][0]) >= least) {
+            if cost(&batch[0][0]) >= attempts.least(best.as_ref()) {
                 break;
             }
             let of_shape = |&same: &&[Candidate]| match same[0].shape {
@@ -102,7 +102,7 @@ impl Attempts<'_> {
             let few = samples(truth, region, shape, FEW_IN_A_SPAN);
             let failing = self.refuted(same, &few, FEW_STEPS);
             if !failing.is_empty() {
-                return failing.into_iter().map(|trial| (trial, None)).collect();
+                return failing;
             }
         }
         let mut points = samples(truth, region, shape, spread);
@@ -114,16 +114,18 @@ impl Attempts<'_> {
     /// the tolerance is a witness that it fails.
     fn exact(&self, same: &[Candidate], screen: &[Sample]) -> Vec<Tried> {
         let (truth, tolerance) = (self.search.truth, self.search.task.tolerance);
+        let integrals = same[0].integrals(truth).unwrap_or_default();
+        let places = LazyCell::new(|| verify::points(truth, &self.region, &same[0].shape));
         let measured = |candidate: &Candidate| {
-            let approximation = candidate.exact(truth, self.region)?;
+            let approximation = candidate.of_integrals(&integrals, truth.lobe(), self.region);
             let measure =
                 |places: &[Sample]| verify::measure(&approximation, self.f0, tolerance, places);
             let mut worst = measure(screen);
             if worst.share <= 1.0 {
-                worst = measure(&verify::points(truth, &self.region, &candidate.shape));
+                worst = measure(&places);
             }
-            Some(self.tried(candidate, approximation, worst))
+            self.tried(candidate, approximation, worst)
         };
-        same.iter().filter_map(measured).collect()
+        same.iter().map(measured).collect()
     }
 }
