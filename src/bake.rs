@@ -60,14 +60,14 @@ impl Plan<'_> {
     pub fn bake(&self, progress: Progress) -> Result<Baked> {
         let request = self.request;
         let layout = request.layout();
-        let packings = request.packings()?;
+        let packings = request.packings();
         let count = packings.len() * layout.values_of_slice();
         let mut values = Packed::zeros(request.precision(), count)?;
         let size = layout.values_of_slice() * request.precision().bytes();
         let (mut parts, mut reports, mut rounding) = (Vec::new(), Vec::new(), 0.0f64);
         let slices = packings.iter().zip(values.bytes_mut().chunks_exact_mut(size));
         for (index, (packing, bytes)) in slices.enumerate() {
-            let slice = Slice { plan: self, packing, progress };
+            let slice = Slice { plan: self, packing, parts: &self.slices[index], progress };
             let (outcomes, coarser) = slice.bake(bytes)?;
             rounding = rounding.max(request.precision().half_step() + coarser);
             let several = outcomes.len() > 1;
@@ -99,6 +99,8 @@ impl Plan<'_> {
 struct Slice<'a> {
     plan: &'a Plan<'a>,
     packing: &'a Packing,
+    /// The plans of its parts.
+    parts: &'a [PartPlan],
     progress: Progress<'a>,
 }
 
@@ -118,11 +120,11 @@ impl Slice<'_> {
     ///
     /// [`Precision::half_step`]: crate::table::precision::Precision::half_step
     fn bake(&self, bytes: &mut [u8]) -> Result<(Vec<(Part, Outcome)>, f64)> {
-        let Plan { request, parts, .. } = self.plan;
+        let request = self.plan.request;
         let precision = request.precision();
         let mut sheet = Sheet::new(self.packing, request.grid(), precision, bytes);
         let mut outcomes = Vec::new();
-        for (part, plan) in self.packing.parts().into_iter().zip(parts) {
+        for (part, plan) in self.packing.parts().into_iter().zip(self.parts) {
             let on = PartOfSlice { slice: self, part: &part, plan };
             let outcome = match request.accuracy() {
                 Accuracy::Rounded | Accuracy::Within(_) => on.certified(&mut sheet)?,

@@ -7,6 +7,7 @@
 
 pub mod diffuse;
 pub mod fresnel;
+pub mod interface;
 pub mod masking;
 pub mod ndf;
 
@@ -54,6 +55,13 @@ impl Microfacet {
         let what = format!("masking of {}", self.ndf);
         let cure = definition.why_no_other_masking;
         Err(Error::bad_input(what, words(definition.maskings), self.masking.word(), cure))
+    }
+
+    /// Whether a Fresnel model has a meaning for it: the exact equations belong to interfaces, and
+    /// sheen is none. Where v lies on the horizon its ring leaves nothing but the layer in which
+    /// they change.
+    pub fn takes(self, fresnel: Fresnel) -> bool {
+        self.ndf.definition().becomes_mirror || fresnel.count() > 1
     }
 
     /// The projected area c (1 + 2Λ(c)) of the microsurface that the masking term belongs to: see

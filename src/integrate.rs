@@ -18,15 +18,17 @@ pub mod light_directions;
 pub mod pick;
 pub mod rule;
 pub mod rules;
+pub mod view_polar;
 
 pub use field::{Field, ScaleBias};
 
 use crate::brdf::fresnel::Basis;
 use crate::brdf::{Diffuse, Fresnel, Microfacet};
-use crate::numeric::lanes::{Number, Real};
+use crate::numeric::ball::Ball;
+use crate::numeric::lanes::Real;
 
 /// A lobe to be integrated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Integrand {
     /// A specular lobe, to the integrals of its Fresnel model's weights.
     Specular(Microfacet, Fresnel),
@@ -69,9 +71,9 @@ impl Integrand {
 }
 
 /// The integrals in the limit α → 0 at fixed n·v: those of a perfect mirror, times the limit of the
-/// albedo.
-pub fn mirror<const N: usize, B: Basis<N>, R: Number>(lobe: Microfacet, basis: B, mu: R) -> [R; N] {
-    basis.of_mirror(mu).map(|weight| lobe.smooth_limit(mu) * weight)
+/// albedo; each with the bound of its error.
+pub fn mirror<const N: usize, B: Basis<N>>(lobe: Microfacet, basis: B, mu: f64) -> [Ball; N] {
+    basis.of_mirror(mu).map(|weight| lobe.smooth_limit(Ball::exact(mu)) * weight)
 }
 
 /// The scale of errors at a point: the albedo there if it exceeds 1, else 1.

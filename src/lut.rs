@@ -10,7 +10,7 @@ pub use dfg::{Dfg, DfgChannels};
 pub use energy::{Energy, EnergyChannels};
 pub use packing::{Content, Packing, Part, Source};
 
-use crate::brdf::{Diffuse, Microfacet};
+use crate::brdf::{Diffuse, Fresnel, Microfacet};
 use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::integrate::Integrand;
@@ -52,6 +52,26 @@ impl Lut {
             Lut::Dfg(dfg) => Integrand::Specular(dfg.lobe(), dfg.fresnel()),
             Lut::Energy(energy) => energy.lobe().into(),
             Lut::Diffuse(diffuse) => Integrand::Diffuse(*diffuse),
+        }
+    }
+
+    /// The Fresnel model that can be chosen.
+    pub fn fresnel(&self) -> Option<Fresnel> {
+        match self {
+            Lut::Dfg(dfg) => Some(dfg.fresnel()),
+            Lut::Energy(_) | Lut::Diffuse(_) => None,
+        }
+    }
+
+    /// The same table with another Fresnel model; an error where none can be chosen, or where the
+    /// model has not its channels.
+    pub fn with_fresnel(&self, fresnel: Fresnel) -> Result<Lut> {
+        match self {
+            Lut::Dfg(dfg) => dfg.with_fresnel(fresnel).map(Lut::Dfg),
+            Lut::Energy(_) | Lut::Diffuse(_) => {
+                let cure = "bake dfg, or leave it out";
+                Err(Error::bad_input("fresnel", "schlick", fresnel.to_string(), cure))
+            }
         }
     }
 
@@ -113,7 +133,7 @@ impl Lut {
     /// The choices of the family as flags.
     pub fn flags(&self) -> String {
         match self {
-            Lut::Dfg(dfg) => format!("{} --channels {}", dfg.lobe_flags(), dfg.word()),
+            Lut::Dfg(dfg) => format!("{} --channels {}", lobe_flags(dfg.lobe()), dfg.word()),
             Lut::Energy(energy) => {
                 format!("{} --channels {}", lobe_flags(energy.lobe()), energy.channels())
             }
@@ -132,7 +152,7 @@ impl Lut {
                 ),
                 model: ndf.word(),
                 masking: Some(masking.word()),
-                fresnel: Some(fresnel.definition().formula),
+                fresnel: Some(fresnel.formula()),
                 f0: self.f0(),
                 roughness: ndf.definition().roughness,
             },

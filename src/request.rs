@@ -1,8 +1,7 @@
 //! A checked job: a table, its axes, its accuracy and its storage. It prints itself as the command
 //! that repeats it.
 
-use crate::brdf::{Microfacet, Ndf};
-use crate::choice::Choice;
+use crate::brdf::{Fresnel, Microfacet, Ndf};
 use crate::error::{Error, Result};
 use crate::integrate::Integrand;
 use crate::integrate::hammersley::Hammersley;
@@ -57,7 +56,8 @@ impl Accuracy {
 /// A checked job.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
-    packing: Packing,
+    /// What a texel of each slice holds; one of a table without slices. None is empty.
+    packings: Vec<Packing>,
     layout: Layout,
     grid: Grid,
     accuracy: Accuracy,
@@ -86,7 +86,7 @@ impl Request {
         check_accuracy(&packing, &grid, accuracy, precision)?;
         check_channels(&packing, precision)?;
         let layout = Layout { x, y, slices: None, channels: packing.channels() };
-        Ok(Request { packing, layout, grid, accuracy, precision })
+        Ok(Request { packings: vec![packing], layout, grid, accuracy, precision })
     }
 
     /// The table that every engine needs: x = n·v, y = perceptual roughness, texel centres;
@@ -103,37 +103,51 @@ impl Request {
         Request::new(packing, x, y, accuracy, precision)
     }
 
-    /// The same table in slices; an error where it does not vary with their parameter.
-    pub fn with_slices(mut self, slices: Slices) -> Result<Self> {
-        for &value in slices.values() {
-            self.packing.at(slices.parameter(), value)?;
+    /// The same table in slices of a parameter; an error where it does not vary with it.
+    pub fn with_slices(self, slices: Slices) -> Result<Self> {
+        let Some((parameter, values)) = slices.parameter() else {
+            return Err(Error::Internal("slices of models without their tables".into()));
+        };
+        let at = |&value: &f64| self.packing().at(parameter, value);
+        let packings = values.iter().map(at).collect::<Result<Vec<Packing>>>()?;
+        self.in_slices(packings, slices)
+    }
+
+    /// The same table with each of these Fresnel models, at least two, in a slice of its own; an
+    /// error where the table has none, or where its channels are not those of every model.
+    pub fn with_fresnel(self, models: &[Fresnel]) -> Result<Self> {
+        let with = |&model: &Fresnel| self.packing().with_fresnel(model);
+        let packings = models.iter().map(with).collect::<Result<Vec<Packing>>>()?;
+        let words = models.iter().map(ToString::to_string).collect();
+        self.in_slices(packings, Slices::of_models("fresnel", words)?)
+    }
+
+    fn in_slices(mut self, packings: Vec<Packing>, slices: Slices) -> Result<Self> {
+        for packing in &packings {
+            check_accuracy(packing, &self.grid, self.accuracy, self.precision)?;
         }
+        self.packings = packings;
         self.layout.slices = Some(slices);
         Ok(self)
     }
 
     /// The same table with another accuracy and storage.
     pub fn stored(&self, accuracy: Accuracy, precision: Precision) -> Result<Self> {
-        check_accuracy(&self.packing, &self.grid, accuracy, precision)?;
-        check_channels(&self.packing, precision)?;
+        for packing in &self.packings {
+            check_accuracy(packing, &self.grid, accuracy, precision)?;
+        }
+        check_channels(self.packing(), precision)?;
         Ok(Request { accuracy, precision, ..self.clone() })
     }
 
-    /// What a texel holds.
+    /// What a texel of the first slice holds.
     pub fn packing(&self) -> &Packing {
-        &self.packing
+        &self.packings[0]
     }
 
     /// What a texel of each slice holds; of a table without slices any.
-    pub fn packings(&self) -> Result<Vec<Packing>> {
-        match &self.layout.slices {
-            None => Ok(vec![self.packing.clone()]),
-            Some(slices) => slices
-                .values()
-                .iter()
-                .map(|&value| self.packing.at(slices.parameter(), value))
-                .collect(),
-        }
+    pub fn packings(&self) -> &[Packing] {
+        &self.packings
     }
 
     /// Axes, slices and channels.
@@ -304,15 +318,17 @@ impl fmt::Display for Request {
     /// The command that repeats the job.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Layout { x, y, slices, .. } = &self.layout;
-        let main = self.packing.main();
-        write!(f, "splitsum bake {}", self.packing.flags())?;
+        let main = self.packing().main();
+        write!(f, "splitsum bake {}", self.packing().flags())?;
+        match (main.fresnel(), slices) {
+            (None | Some(Fresnel::Schlick), _) => (),
+            // The list of slices names it.
+            (Some(_), Some(slices)) if slices.parameter().is_none() => (),
+            (Some(fresnel), _) => write!(f, " --fresnel {fresnel}")?,
+        }
         let spec = slices.as_ref().and_then(Slices::spec);
         match (slices, spec, main.f0()) {
-            (Some(slices), None, _) => {
-                let values: Vec<String> =
-                    slices.values().iter().map(|&value| short(value)).collect();
-                write!(f, " --{} {}", slices.parameter().word(), values.join(","))?;
-            }
+            (Some(slices), None, _) => write!(f, " --{} {}", slices.word(), slices.list())?,
             (None, _, Some(f0)) => write!(f, " --f0 {}", short(f0))?,
             _ => (),
         }

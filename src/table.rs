@@ -61,7 +61,7 @@ pub struct Provenance {
     pub masking: Option<&'static str>,
     /// Fresnel of a specular lobe.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
-    pub fresnel: Option<&'static str>,
+    pub fresnel: Option<String>,
     /// Reflectance at normal incidence of a table for one F0.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub f0: Option<f64>,

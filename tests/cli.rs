@@ -109,7 +109,7 @@ fn every_choice_bakes() {
         "--lut energy --channels split --ior 1.33 -o s.exr",
         "--lut energy --f0 0.02,0.04,0.08,0.5 -o w.exr",
         "--lut energy --z f0,sqrt,offset=0,min=0.02 --size 6x5x3 -o x.exr",
-        "--fresnel schlick-f82 --channels abc -o y.exr",
+        "--fresnel f82 --channels abc -o y.exr",
         "--model beckmann-walter -o k.exr",
         "--model blinn-phong --y exponent,edges -o l.exr",
         "--model charlie --channels e -o m.exr",
@@ -251,7 +251,7 @@ fn wrong_values_are_refused_with_what_was_expected() {
     refused("bake --lut energy --f0 -1e-3", 4, &["expected 0 to 1, got -0.001"]);
     refused("bake --lut energy --f0 -.02,0.04", 4, &["expected 0 to 1, got -0.02"]);
     refused("bake --lut energy --ior -2", 4, &["at least 1", "got -2"]);
-    refused("bake --fresnel schlick-f82 --channels be", 4, &["expected abc, e, or terms"]);
+    refused("bake --fresnel f82 --channels be", 4, &["expected abc, e, or terms"]);
     refused("bake --lut energy --f0 1", 4, &["less than 1"]);
     refused("bake --lut energy --f0 nan", 4, &["expected 0 to 1"]);
     refused("bake --lut energy --f0 0.1,0.1", 4, &["different values"]);

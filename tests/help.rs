@@ -5,8 +5,9 @@
 mod program;
 
 use program::{ok, run, stderr};
+use splitsum::brdf::fresnel::KINDS;
 use splitsum::integrate::rules::RULES;
-use splitsum::{BackendChoice, Choice, Diffuse, EnergyChannels, FORMATS, Fresnel, Masking, Ndf};
+use splitsum::{BackendChoice, Choice, Diffuse, EnergyChannels, FORMATS, Masking, Ndf};
 use tempfile::{TempDir, tempdir};
 
 fn said(folder: &TempDir, arguments: &str) -> String {
@@ -37,13 +38,13 @@ fn help_lists_every_word_that_a_flag_takes() {
     let words = words::<Ndf>()
         .chain(words::<Diffuse>())
         .chain(words::<Masking>())
-        .chain(words::<Fresnel>())
+        .chain(KINDS.iter().map(|kind| kind.usage))
         .chain(words::<EnergyChannels>())
         .chain(words::<BackendChoice>())
         .chain(FORMATS.iter().flat_map(|format| format.precisions()).map(|storage| storage.word()))
         .chain(FORMATS.iter().map(|format| format.extension()));
     for word in words {
-        let entry = |line: &str| line.trim_start().starts_with(&format!("- {word}:"));
+        let entry = |line: &str| line.trim_start().starts_with(&format!("- {word}: "));
         assert_eq!(text.lines().filter(|line| entry(line)).count(), 1, "{word}");
     }
     // Words that explain themselves stand in a list, which runs over several lines.
@@ -66,7 +67,7 @@ fn completions_know_commands_and_words() {
         }
         // clap gives these two no values.
         let values = !["elvish", "powershell"].contains(&shell);
-        assert_eq!(text.contains("schlick-f82"), values, "{shell}");
+        assert_eq!(text.contains("f82"), values, "{shell}");
     }
     assert_eq!(run(&folder, "completions tcsh").status.code(), Some(2));
 }

@@ -77,7 +77,8 @@ fn a_slice_has_a_claim_of_its_own() {
     let request = request.with_slices(slices).unwrap();
     assert_eq!((request.texels(), request.bytes()), (32, 32 * 3 * 2));
     let table = splitsum::bake(&request, &Backend::cpu()).unwrap().table;
-    assert_eq!(table.layout().slices.as_ref().unwrap().parameter(), Parameter::F0);
+    let (parameter, _) = table.layout().slices.as_ref().unwrap().parameter().unwrap();
+    assert_eq!(parameter, Parameter::F0);
     for (slice, f0) in [0.02, 0.5].into_iter().enumerate() {
         assert_eq!(table.parts(slice)[0].provenance.f0, Some(f0));
         let Claim::Certificate(certificate) = table.claim(slice) else { panic!("no certificate") };

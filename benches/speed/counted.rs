@@ -47,6 +47,10 @@ impl Real for Counted {
     fn select_below(self, limit: Self, yes: Self, no: Self) -> Self {
         if self.0 < limit.0 { yes } else { no }
     }
+
+    fn any(self, test: impl Fn(f64) -> bool) -> bool {
+        test(self.0)
+    }
 }
 
 impl Neg for Counted {

@@ -228,7 +228,8 @@ impl<const N: usize, B: Basis<N>> Work for Quadrature<N, B> {
             scatter(&vectorised(Group { work: self, mu, alpha }), integrals);
             for (integrals, (mu, alpha)) in integrals.chunks_exact_mut(N).zip(points) {
                 if alpha == 0.0 {
-                    integrals.copy_from_slice(&mirror(self.lobe, self.basis, mu));
+                    let mirror = mirror(self.lobe, self.basis, mu);
+                    integrals.copy_from_slice(&mirror.map(|integral| integral.value));
                 }
             }
         }

@@ -79,6 +79,7 @@ fn smooth_limit(mu: f32) -> f32 {{ return {limit}; }}
 /// The WGSL of a Fresnel model: its module, and the type of its weights and integrals.
 fn fresnel_source(fresnel: Fresnel) -> String {
     let (source, weights) = fresnel.definition().wgsl;
+    let arguments = fresnel.wgsl_arguments();
     let of_type = match fresnel.count() {
         1 => "f32".into(),
         count => format!("vec{count}<f32>"),
@@ -87,7 +88,7 @@ fn fresnel_source(fresnel: Fresnel) -> String {
         "{}
 {source}
 alias Weights = {of_type};
-fn fresnel_weights(vh: f32) -> Weights {{ return {weights}(vh); }}
+fn fresnel_weights(vh: f32) -> Weights {{ return {weights}(vh{arguments}); }}
 ",
         module::FRESNEL
     )

@@ -17,8 +17,8 @@ use std::fmt;
 #[derive(Clone, Debug)]
 pub struct Plan<'a> {
     pub(super) request: &'a Request,
-    /// The parts, in the order of the packing's.
-    pub(super) parts: Vec<PartPlan>,
+    /// The parts of each slice, in the order of the packing's; of a table without slices one's.
+    pub(super) slices: Vec<Vec<PartPlan>>,
     /// The device; none where the CPU does it all.
     pub(super) device: Option<&'a Gpu>,
     /// The reason for the device or for the CPU, where there was a choice.
@@ -62,31 +62,35 @@ const WORKING_BYTES: usize = 128;
 impl<'a> Plan<'a> {
     /// The plan for a request on a backend; an error where the backend is ruled out.
     pub fn new(request: &'a Request, backend: &'a Backend) -> Result<Self> {
-        let (mut parts, mut saved) = (Vec::new(), 0.0);
-        for part in request.packing().parts() {
-            let rules = rules(request, &part)?;
-            let device_rule = device_rule(request, &part);
-            if device_rule.is_ok() {
-                saved += seconds_saved(request, &part, &rules);
+        let (mut slices, mut saved) = (Vec::new(), 0.0);
+        for packing in request.packings() {
+            let mut parts = Vec::new();
+            for part in packing.parts() {
+                let rules = rules(request, &part)?;
+                let device_rule = device_rule(request, &part);
+                if device_rule.is_ok() {
+                    saved += seconds_saved(request, &part, &rules);
+                }
+                parts.push(PartPlan { part, rules, device_rule });
             }
-            parts.push(PartPlan { part, rules, device_rule });
+            slices.push(parts);
         }
         // The CPU does what a device cannot, as long as something is left for the device.
-        let all_refused = parts.iter().all(|part| part.device_rule.is_err());
-        let obstacle = parts[0].device_rule.as_ref().err().filter(|_| all_refused).cloned();
+        let all_refused = slices.iter().flatten().all(|part| part.device_rule.is_err());
+        let obstacle = slices[0][0].device_rule.as_ref().err().filter(|_| all_refused).cloned();
         let Chosen { gpu, reason } = backend.choose(obstacle, saved)?;
-        Ok(Plan { request, parts, device: gpu, reason })
+        Ok(Plan { request, slices, device: gpu, reason })
     }
 
     /// The rules of the CPU for the main part: the stages of a certification, or the one rule of a
     /// table that is not certified.
     pub fn rules(&self) -> &[Rule] {
-        &self.parts[0].rules
+        &self.slices[0][0].rules
     }
 
     /// The device and its rule for the main part; none where the CPU does it all.
     pub fn device(&self) -> Option<(&Gpu, Rule)> {
-        self.device.zip(self.parts[0].device_rule.as_ref().ok().copied())
+        self.device.zip(self.slices[0][0].device_rule.as_ref().ok().copied())
     }
 
     /// The reason for the device or for the CPU, where there was a choice.
@@ -101,8 +105,8 @@ impl<'a> Plan<'a> {
         let of_part = |PartPlan { part, rules, .. }: &PartPlan| {
             seconds_of_first(request, part, rules) + DECISION * request.grid().len() as f64
         };
-        let slice = self.parts.iter().map(of_part).sum::<f64>();
-        request.layout().slice_count() as f64 * slice / rayon::current_num_threads() as f64
+        let seconds = self.slices.iter().flatten().map(of_part).sum::<f64>();
+        seconds / rayon::current_num_threads() as f64
     }
 }
 
@@ -139,6 +143,11 @@ fn device_rule(request: &Request, part: &Part) -> std::result::Result<Rule, Comp
             "diffuse, whose closed forms the CPU has at once",
         );
     }
+    if let Integrand::Specular(_, fresnel) = integrand
+        && let Some(expected) = fresnel.obstacle_on_device()
+    {
+        return on_cpu("fresnel", expected, &fresnel.to_string());
+    }
     match request.accuracy() {
         Accuracy::Within(_) => on_cpu(
             "precision",
@@ -168,7 +177,7 @@ fn too_small() -> std::result::Result<Rule, Complaint> {
     Err(Complaint::new("tolerance", expected, "a smaller one", "use --backend cpu"))
 }
 
-/// The approximate CPU time that a device would save.
+/// The approximate CPU time that a device would save of a slice.
 fn seconds_saved(request: &Request, part: &Part, rules: &[Rule]) -> f64 {
     let share = match (request.accuracy(), rules.first()) {
         // An interpolant checks every texel of a device.
@@ -180,7 +189,7 @@ fn seconds_saved(request: &Request, part: &Part, rules: &[Rule]) -> f64 {
         (Accuracy::Tolerance(_) | Accuracy::Rule(_) | Accuracy::Estimator(_), _) => 1.0,
     };
     let first = seconds_of_first(request, part, rules);
-    request.layout().slice_count() as f64 * share * first / rayon::current_num_threads() as f64
+    share * first / rayon::current_num_threads() as f64
 }
 
 /// The approximate time of the first of these rules on a slice, averages included, on one thread.
@@ -207,7 +216,7 @@ fn in_words(bytes: usize) -> String {
 impl Plan<'_> {
     /// The rules of a part, named for its lobe where there are several.
     fn write_part(&self, plan: &PartPlan, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let of = match self.parts.len() {
+        let of = match self.slices[0].len() {
             1 => String::new(),
             _ => format!("{}: ", names_of(&plan.part, &self.request.layout().channels)),
         };
@@ -244,7 +253,7 @@ impl fmt::Display for Plan<'_> {
             layout.channels.iter().map(|channel| &*channel.name).collect::<Vec<_>>().join(", ");
         write!(f, "table     {} x {}", layout.x.size(), layout.y.size())?;
         if let Some(slices) = &layout.slices {
-            write!(f, " x {} slices of {}", slices.count(), slices.parameter())?;
+            write!(f, " x {} slices of {}", slices.count(), slices.word())?;
         }
         writeln!(f, ", {channels} in {}: {}", request.precision(), in_words(request.bytes()))?;
         match (&self.device, &self.reason) {
@@ -255,7 +264,7 @@ impl fmt::Display for Plan<'_> {
                 writeln!(f, "backend   Vulkan, f32: {}{reason}", gpu.info().name)?;
             }
         }
-        self.parts.iter().try_for_each(|part| self.write_part(part, f))?;
+        self.slices[0].iter().try_for_each(|part| self.write_part(part, f))?;
         let threads = rayon::current_num_threads();
         let time = format!("{} on {threads} threads", duration(self.seconds()));
         match self.device {

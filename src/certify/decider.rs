@@ -136,7 +136,7 @@ fn balls(row: &Row, mu: f64, integrals: &[f64]) -> [Ball; MOST_WEIGHTS] {
     if let Some((lobe, fresnel)) = row.mirror {
         // Exact but for the arithmetic.
         with_basis!(fresnel, basis => {
-            let integrals = mirror(lobe, basis, Ball::exact(mu));
+            let integrals = mirror(lobe, basis, mu);
             balls.iter_mut().zip(integrals).for_each(|(ball, integral)| *ball = integral);
         });
         return balls;

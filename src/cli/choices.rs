@@ -1,5 +1,6 @@
 //! Flags with a word for each choice: the parser, the help and the completions know all of them.
 
+use crate::brdf::fresnel::{Definition, KINDS};
 use crate::brdf::{Diffuse, Fresnel, Masking, Microfacet, Ndf};
 use crate::choice::Choice;
 use crate::error::Result;
@@ -27,6 +28,33 @@ pub fn channels() -> impl TypedValueParser<Value = String> {
     Channels
 }
 
+/// The parser of Fresnel models, one or several.
+pub fn fresnel() -> impl TypedValueParser<Value = String> {
+    Models
+}
+
+/// Takes any text, since numbers follow the names, and knows the names.
+#[derive(Clone)]
+struct Models;
+
+impl TypedValueParser for Models {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> std::result::Result<String, clap::Error> {
+        clap::builder::StringValueParser::new().parse_ref(command, argument, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let value = |kind: &Definition| PossibleValue::new(kind.usage).help(kind.about);
+        Some(Box::new(KINDS.iter().map(value).collect::<Vec<_>>().into_iter()))
+    }
+}
+
 /// Takes any text, since a list of terms is checked where the lobe is known, and knows the names.
 #[derive(Clone)]
 struct Channels;
@@ -49,14 +77,15 @@ impl TypedValueParser for Channels {
 }
 
 fn names_of_channels() -> Vec<PossibleValue> {
-    let of_model = |&fresnel: &Fresnel| {
-        DfgChannels::served_by(fresnel).map(move |channels| (channels, fresnel))
-    };
-    let pairs: Vec<(DfgChannels, Fresnel)> = Fresnel::ALL.iter().flat_map(of_model).collect();
+    let of_model =
+        |fresnel: Fresnel| DfgChannels::served_by(fresnel).map(move |channels| (channels, fresnel));
+    let pairs: Vec<(DfgChannels, Fresnel)> =
+        Fresnel::samples().into_iter().flat_map(of_model).collect();
     let of_dfg = pairs.iter().map(|&(channels, fresnel)| {
         let word = channels.word(fresnel);
         let serves = pairs.iter().filter(|(channels, fresnel)| channels.word(*fresnel) == word);
-        let models: Vec<&str> = serves.map(|(_, fresnel)| fresnel.word()).collect();
+        let mut models: Vec<&str> = serves.map(|(_, fresnel)| fresnel.definition().word).collect();
+        models.dedup();
         let about = channels.about(fresnel);
         PossibleValue::new(word).help(format!("of dfg, {}: {about}", models.join(" or ")))
     });

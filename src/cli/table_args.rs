@@ -43,9 +43,10 @@ pub struct TableArgs {
     /// Masking [default: height-correlated; implicit for blinn-phong, neubelt for charlie]
     #[arg(long, value_name = "NAME", value_parser = choices::of::<Masking>())]
     masking: Option<Masking>,
-    /// Fresnel of dfg [default: schlick]
-    #[arg(long, value_name = "NAME", value_parser = choices::of::<Fresnel>())]
-    fresnel: Option<Fresnel>,
+    /// Fresnel of dfg; several, with commas between, are slices, layers of an .exr [default:
+    /// schlick]
+    #[arg(long, value_name = "NAME[,NAME...]", value_parser = choices::fresnel())]
+    fresnel: Option<String>,
     /// Channels: a name, or up to four terms of dfg with commas between, for example b,e,charlie:
     /// a, b, c, e, 1-e, a_avg, b_avg, e_avg; another lobe's E, as in charlie, charlie/neubelt or
     /// burley; nov, roughness or a number; each but 1-e and a number with *SCALE and +OFFSET or
@@ -254,7 +255,8 @@ impl TableArgs {
             self.size.as_ref().map_or(Ok((DEFAULT_SIZE, DEFAULT_SIZE, None)), Size::parse)?;
         let (x, y) = self.axes(columns, rows)?;
         let f0s = self.f0s()?;
-        let packing = self.family(f0s[0])?;
+        let fresnels = self.fresnels()?;
+        let packing = self.family(f0s[0], fresnels[0])?;
         let lut = packing.main();
         if lut.f0().is_none() && (self.f0.is_some() || self.ior.is_some()) {
             let what = if self.ior.is_some() { "ior" } else { "f0" };
@@ -265,9 +267,15 @@ impl TableArgs {
         let accuracy = accuracy(&packing)?;
         let request = Request::new(packing, x, y, accuracy, precision)?;
         match self.slices(&f0s, depth)? {
-            Some(slices) => request.with_slices(slices),
+            None if fresnels.len() > 1 => request.with_fresnel(&fresnels),
             None => Ok(request),
+            Some(slices) => request.with_slices(slices),
         }
+    }
+
+    /// The Fresnel model of each slice.
+    fn fresnels(&self) -> Result<Vec<Fresnel>> {
+        self.fresnel.as_deref().map_or(Ok(vec![Fresnel::Schlick]), Fresnel::list)
     }
 
     /// F0 of each slice; of a table over two axes its own.

@@ -113,7 +113,7 @@ pub fn rows<V: Vector, M: Method>(lobe: Microfacet, grid: &Grid, method: &M) -> 
     integrals.par_chunks_mut(grid.mus.len()).zip(&grid.alphas).for_each(|(texels, &alpha)| {
         if alpha == 0.0 {
             for (texel, &mu) in texels.iter_mut().zip(&grid.mus) {
-                *texel = mirror(lobe, Schlick, mu).into();
+                *texel = mirror(lobe, Schlick, mu).map(|integral| integral.value).into();
             }
             return;
         }

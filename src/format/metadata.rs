@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use crate::table::axis::{Axis, Parameter};
 use crate::table::claim::Claim;
 use crate::table::precision::Precision;
+use crate::table::slices::SliceValue;
 use crate::table::{Part, Provenance};
 use serde::Serialize;
 
@@ -31,7 +32,7 @@ struct Metadata<'a> {
     x: AxisText,
     y: AxisText,
     #[serde(skip_serializing_if = "Option::is_none")]
-    slice: Option<SliceText>,
+    slice: Option<SliceText<'a>>,
     origin: &'static str,
     stored: Precision,
     rounding: &'static str,
@@ -57,11 +58,11 @@ struct AxisText {
 }
 
 #[derive(Serialize)]
-struct SliceText {
-    parameter: Parameter,
+struct SliceText<'a> {
+    parameter: &'static str,
     index: usize,
     count: usize,
-    value: f64,
+    value: SliceValue<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     axis: Option<String>,
 }
@@ -111,10 +112,10 @@ pub fn metadata(texels: &Texels, slice: usize) -> Result<String> {
         x: AxisText::new(table.x()),
         y: AxisText::new(table.y()),
         slice: table.layout().slices.as_ref().map(|slices| SliceText {
-            parameter: slices.parameter(),
+            parameter: slices.word(),
             index: slice,
             count: slices.count(),
-            value: slices.values()[slice],
+            value: slices.value(slice),
             axis: slices.spec().map(|spec| spec.to_string()),
         }),
         origin: match precision {

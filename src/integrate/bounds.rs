@@ -27,6 +27,23 @@ pub struct Bound {
     pub absolute: f64,
 }
 
+impl Bound {
+    /// The same for errors so many times as large.
+    pub fn times(self, factor: f64) -> Self {
+        let Bound { all, relative, absolute } = self;
+        Bound { all: factor * all, relative: factor * relative, absolute: factor * absolute }
+    }
+
+    /// The same for the sum of two errors.
+    pub fn plus(self, other: Self) -> Self {
+        Bound {
+            all: self.all + other.all,
+            relative: self.relative + other.relative,
+            absolute: self.absolute + other.absolute,
+        }
+    }
+}
+
 /// The bound of a rule that does not serve for a lobe.
 pub const NONE: Bound = all(f64::INFINITY);
 
@@ -158,6 +175,21 @@ const CHARLIE_BELOW_LIMIT: Columns = Columns {
 /// faster than the rules over half vectors follow (below roughness 1e-6).
 const CHARLIE_FITTED_BELOW_LIMIT: Columns =
     Columns { h640: all(6e-4), h1536: all(2e-4), h6144: all(3e-5), ..CHARLIE_BELOW_LIMIT };
+
+/// What the layer of an index of refraction near 1 adds, where reflectance falls from 1 within
+/// √(n² - 1) of grazing incidence.
+pub const LAYER: Columns = Columns {
+    h56: all(1e-3),
+    h130: all(2e-4),
+    h288: all(5e-5),
+    h640: all(2e-5),
+    h1536: all(4e-6),
+    h6144: all(3e-7),
+    d6144: all(1e-5),
+    d10240: all(1e-6),
+    reference: all(1e-10),
+    ..SMOOTH
+};
 
 /// The double exponential rules are as sharp for one smooth lobe as for any other; the rest serve
 /// for none.

@@ -8,7 +8,7 @@ use super::double_exponential::DoubleExponentialRule;
 use super::half_vectors::HalfVectorRule;
 use super::interpolant::InterpolantRule;
 use super::light_directions::LightDirectionRule;
-use crate::brdf::{Masking, Microfacet, Ndf};
+use crate::brdf::{Fresnel, Masking, Microfacet, Ndf};
 
 /// The method of a rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,16 +56,15 @@ impl Rule {
             (Method::ClosedForm, Integrand::Diffuse(_)) => true,
             (Method::ClosedForm, _) | (_, Integrand::Diffuse(_)) => false,
             (Method::LightDirections(_), Integrand::Specular(lobe, fresnel)) => {
-                // A follows from E and B.
-                light_directions_serve(lobe) && fresnel.count() > 1
+                light_directions_serve(lobe) && has_smooth_complement(fresnel)
             }
             (Method::Interpolant(_), Integrand::Specular(lobe, fresnel)) => {
-                interpolants_serve(lobe) && fresnel.count() > 1
+                interpolants_serve(lobe) && has_smooth_complement(fresnel)
             }
             (
                 Method::HalfVectors(_) | Method::DoubleExponential(_),
-                Integrand::Specular(lobe, _),
-            ) => visibility_knows_no_azimuth(lobe),
+                Integrand::Specular(lobe, fresnel),
+            ) => visibility_knows_no_azimuth(lobe) && lobe.takes(fresnel),
         }
     }
 
@@ -73,6 +72,15 @@ impl Rule {
     /// guards bounds.
     pub fn promising(self, bound: f64) -> Rule {
         Rule { promised: Some(bound), ..self }
+    }
+}
+
+/// The rules over directions of light take A from E and B, and their nodes for the azimuth are
+/// those that (1 - v·h)⁵ needs.
+fn has_smooth_complement(fresnel: Fresnel) -> bool {
+    match fresnel {
+        Fresnel::Schlick | Fresnel::SchlickF82 => true,
+        Fresnel::SchlickPower(_) | Fresnel::Dielectric(_) | Fresnel::Conductor(_) => false,
     }
 }
 

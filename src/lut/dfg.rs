@@ -5,16 +5,15 @@
 //! of Lagarde and Golubev, "The road toward unified rendering with Unity's high definition
 //! rendering pipeline", 2018, and of Filament.
 
-use super::{MOST_CHANNELS, first, lobe_flags};
+use super::{MOST_CHANNELS, first};
 use crate::brdf::fresnel::Integral;
 use crate::brdf::{Fresnel, Microfacet};
-use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::numeric::ball::Ball;
 use crate::table::Channel;
 
 /// A lobe, its Fresnel model, and the numbers that a texel holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dfg {
     lobe: Microfacet,
     fresnel: Fresnel,
@@ -46,20 +45,20 @@ impl Dfg {
     /// Fresnel model has not.
     pub fn new(lobe: Microfacet, fresnel: Fresnel, channels: DfgChannels) -> Result<Self> {
         if channels == DfgChannels::Every {
-            lobe.check()?;
+            check_interface(lobe, fresnel)?;
             // E is the sum of the first two, and a texel has room for no more.
             if (2..MOST_CHANNELS).contains(&fresnel.count()) {
                 return Ok(Dfg { lobe, fresnel, channels });
             }
             let (expected, cure) = ("a Fresnel model of 2 or 3 weights", "leave out the terms");
-            return Err(Error::bad_input("channels", expected, fresnel.word(), cure));
+            return Err(Error::bad_input("channels", expected, fresnel.to_string(), cure));
         }
         Dfg::with_channels(lobe, fresnel, channels.word(fresnel))
     }
 
     /// The channels with this word: the letters of the integrals, as in `ab`, or `be` or `e`.
     pub fn with_channels(lobe: Microfacet, fresnel: Fresnel, word: &str) -> Result<Self> {
-        lobe.check()?;
+        check_interface(lobe, fresnel)?;
         let served = || DfgChannels::served_by(fresnel);
         if let Some(channels) = served().find(|channels| channels.word(fresnel) == word) {
             return Ok(Dfg { lobe, fresnel, channels });
@@ -85,12 +84,15 @@ impl Dfg {
         self.channels.word(self.fresnel)
     }
 
-    /// Lobe and Fresnel model as flags; Schlick's needs none.
-    pub(super) fn lobe_flags(&self) -> String {
-        match self.fresnel {
-            Fresnel::Schlick => lobe_flags(self.lobe),
-            fresnel => format!("{} --fresnel {fresnel}", lobe_flags(self.lobe)),
+    /// The same channels with another Fresnel model; an error where it has not the same.
+    pub(super) fn with_fresnel(&self, fresnel: Fresnel) -> Result<Self> {
+        let with = Dfg::new(self.lobe, fresnel, self.channels)?;
+        if with.word() == self.word() {
+            return Ok(with);
         }
+        let expected = format!("models with the channels of {}", self.fresnel);
+        let cure = "bake tables of their own";
+        Err(Error::bad_input("fresnel", expected, fresnel.to_string(), cure))
     }
 
     /// The channels in order.
@@ -123,6 +125,18 @@ impl Dfg {
             }
         }
     }
+}
+
+/// Refuses a masking term that has no meaning for the distribution, and the exact equations of an
+/// interface for sheen, which has none.
+fn check_interface(lobe: Microfacet, fresnel: Fresnel) -> Result<()> {
+    lobe.check()?;
+    if lobe.takes(fresnel) {
+        return Ok(());
+    }
+    let got = format!("{fresnel} with {}", lobe.ndf);
+    let cure = "choose another model, or schlick";
+    Err(Error::bad_input("fresnel", "one of Schlick's for sheen", got, cure))
 }
 
 impl DfgChannels {

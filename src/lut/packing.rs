@@ -2,6 +2,7 @@
 //! where an engine wants it so, and numbers that need no integral.
 
 use super::{Lut, MOST_CHANNELS};
+use crate::brdf::Fresnel;
 use crate::error::{Error, Result};
 use crate::integrate::Integrand;
 use crate::numeric::ball::Ball;
@@ -181,6 +182,16 @@ impl Packing {
             }
         }
         varies.map(|()| slice)
+    }
+
+    /// The same contents with another Fresnel model; an error where none can be chosen.
+    pub fn with_fresnel(&self, fresnel: Fresnel) -> Result<Packing> {
+        let [lut] = self.luts[..] else {
+            let (expected, got) = ("one in all slices", "several, beside terms of other tables");
+            let cure = "bake those terms in a table of their own";
+            return Err(Error::bad_input("fresnel", expected, got, cure));
+        };
+        Ok(Packing { luts: vec![lut.with_fresnel(fresnel)?], ..self.clone() })
     }
 
     /// The channels of a texel by name.

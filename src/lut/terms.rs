@@ -2,7 +2,7 @@
 //! that a texel is packed from.
 
 use super::packing::{Content, Packing, Source};
-use super::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
+use super::{Dfg, DfgChannels, Energy, EnergyChannels, Lut, lobe_flags};
 use crate::brdf::{Diffuse, Fresnel, Masking, Microfacet, Ndf};
 use crate::choice::Choice;
 use crate::error::{Error, Result};
@@ -54,7 +54,8 @@ pub fn packing(lobe: Microfacet, fresnel: Fresnel, words: &str) -> Result<Packin
         true => format!("--channels='{words}'"),
         false => format!("--channels {words}"),
     };
-    let packing = Packing::new(luts, contents, format!("--lut dfg {} {quoted}", own.lobe_flags()))?;
+    let packing =
+        Packing::new(luts, contents, format!("--lut dfg {} {quoted}", lobe_flags(own.lobe())))?;
     // A list that is all of a table has that table's name.
     Ok(named(&packing).unwrap_or(packing))
 }

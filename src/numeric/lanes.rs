@@ -51,6 +51,9 @@ pub trait Real:
     /// `yes` in the lanes where this is below `limit`, else `no`.
     fn select_below(self, limit: Self, yes: Self, no: Self) -> Self;
 
+    /// Whether a lane passes a test.
+    fn any(self, test: impl Fn(f64) -> bool) -> bool;
+
     /// 1 - x
     #[inline(always)]
     fn complement(self) -> Self {
@@ -114,6 +117,11 @@ impl Real for f64 {
     fn select_below(self, limit: Self, yes: Self, no: Self) -> Self {
         if self < limit { yes } else { no }
     }
+
+    #[inline(always)]
+    fn any(self, test: impl Fn(f64) -> bool) -> bool {
+        test(self)
+    }
 }
 
 macro_rules! lanes {
@@ -142,6 +150,11 @@ macro_rules! lanes {
             #[inline(always)]
             fn select_below(self, limit: Self, yes: Self, no: Self) -> Self {
                 $name(from_fn(|i| if self.0[i] < limit.0[i] { yes.0[i] } else { no.0[i] }))
+            }
+
+            #[inline(always)]
+            fn any(self, test: impl Fn(f64) -> bool) -> bool {
+                self.0.iter().any(|&lane| test(lane.into()))
             }
         }
 

@@ -31,7 +31,7 @@ pub const PRESETS: &[Preset] = &[
     Preset {
         name: "eevee",
         about: "EEVEE's split sum with the F82 term, brdf_ggx",
-        flags: "--masking separable --fresnel schlick-f82 --channels abc --x roughness,edges --y \
+        flags: "--masking separable --fresnel f82 --channels abc --x roughness,edges --y \
                 nov,sqrt-complement,edges,min=1e-4,max=0.9999 --size 64 --precision f32 --symbol \
                 brdf_ggx",
         file: "brdf_ggx.h",

@@ -51,7 +51,7 @@ pub const PRESETS: &[Preset] = &[
     Preset {
         name: "babylon-openpbr",
         about: "Babylon.js' table of its OpenPBR material: (B, E) and the F82 term",
-        flags: "--fresnel schlick-f82 --channels b,e,c*16 --size 128 --precision rgbd8",
+        flags: "--fresnel f82 --channels b,e,c*16 --size 128 --precision rgbd8",
         file: "openpbr_environment_brdf.png",
         source: "npm @babylonjs/core 9.35.0: Misc/brdfTextureTools.js",
         stored: "R = B, G = E, B = 16 C, as RGBD; row 0 is smooth.",

@@ -38,7 +38,7 @@ pub const CASES: [(&str, &str); 11] = [
     ),
     (
         "tinted",
-        "--fresnel schlick-f82 --channels abc --x roughness,edges --y \
+        "--fresnel f82 --channels abc --x roughness,edges --y \
          nov,sqrt-complement,edges,min=1e-4,max=0.9999 --size 24 --precision f32",
     ),
     ("complement", "--channels 1-e --x nov,edges,min=1e-3 --size 32 --precision unorm16"),
@@ -67,8 +67,7 @@ fn packing(flags: &str) -> Packing {
         let f0 = F0::new(0.04).unwrap();
         return Lut::Energy(Energy::new(lobe, f0, EnergyChannels::Split).unwrap()).into();
     }
-    let fresnel =
-        flag(flags, "--fresnel").map_or(Fresnel::Schlick, |word| Fresnel::named(word).unwrap());
+    let fresnel = flag(flags, "--fresnel").map_or(Fresnel::Schlick, |word| word.parse().unwrap());
     let words = flag(flags, "--channels").unwrap_or("ab");
     match Dfg::with_channels(lobe, fresnel, words) {
         Ok(dfg) => Lut::Dfg(dfg).into(),

@@ -63,7 +63,7 @@ const SHIPPED: [Shipped; 5] = [
     Shipped {
         name: "Babylon.js, OpenPBR",
         file: "babylon_openpbr_raw_rgba8.npy",
-        flags: "--fresnel schlick-f82 --channels b,e,c*16 --size 128",
+        flags: "--fresnel f82 --channels b,e,c*16 --size 128",
         channels: 2,
         // As its loader decodes it, though it was written on the curve of sRGB.
         decode: rgbd,

@@ -1,7 +1,10 @@
 //! Every WGSL function of a model alone against its f64 twin, as tests/vulkan/twins.rs does it.
 
 use crate::twins::{Twin, small, unit};
-use splitsum::brdf::fresnel::{schlick_f82_weights, schlick_weight, schlick_weights};
+use splitsum::brdf::fresnel::{
+    conductor_reflectance, dielectric_reflectance, schlick_f82_weights, schlick_power_weights,
+    schlick_weight, schlick_weights,
+};
 use splitsum::brdf::masking::{
     approx_projected_area, height_correlated, implicit, neubelt, schlick_smith, separable,
 };
@@ -56,6 +59,49 @@ pub fn twins() -> Vec<Twin> {
             // As for the weight; once more 1 - x, and two products.
             ulps: 10.0,
             scale: 0.0,
+        },
+        Twin {
+            name: "schlick_power_weights",
+            wgsl: "vec4(schlick_power_weights(p.x, 3u, 1u), schlick_power_weights(p.x, 7u, 0u))",
+            rust: Box::new(|a| {
+                let ([a0, b0], [a1, b1]) =
+                    (schlick_power_weights(a[0], 3, 1), schlick_power_weights(a[0], 7, 0));
+                [a0, b0, a1, b1]
+            }),
+            arguments: |random| [unit(random), 0.0, 0.0, 0.0],
+            // 1 - x and a product for each factor; 1 - w is off by the rounding of w.
+            ulps: 15.0,
+            scale: 1.0,
+        },
+        Twin {
+            name: "dielectric_reflectance",
+            wgsl: "vec4(dielectric_reflectance(p.x, p.y), dielectric_reflectance(p.x, 1e-6 * p.y), \
+                   dielectric_reflectance(p.x, 0.0), 0.0)",
+            rust: Box::new(|a| {
+                let tiny = f64::from(1e-6 * a[1] as f32);
+                [
+                    dielectric_reflectance(a[0], a[1]),
+                    dielectric_reflectance(a[0], tiny),
+                    dielectric_reflectance(a[0], 0.0),
+                    0.0,
+                ]
+            }),
+            arguments: |random| [unit(random), 15.0 * unit(random), 0.0, 0.0],
+            // Twice what a holds: two roundings of g, doubled by the square, three products, a sum
+            // and a quotient.
+            ulps: 24.0,
+            scale: 0.0,
+        },
+        Twin {
+            name: "conductor_reflectance",
+            wgsl: "vec4(conductor_reflectance(p.x, p.y, p.z), 0.0, 0.0, 0.0)",
+            rust: Box::new(four(|a| conductor_reflectance(a[0], a[1], a[2]))),
+            arguments: |random| {
+                [unit(random), 0.01 + 10.0 * unit(random), 0.5 + 10.0 * unit(random), 0.0]
+            },
+            // sum - turned cancels where little is reflected.
+            ulps: 16.0,
+            scale: 1.0,
         },
         Twin {
             name: "ggx_slope_density",

@@ -8,13 +8,13 @@ use splitsum::backend::Gpu;
 use splitsum::backend::vulkan::bake::node_data;
 use splitsum::backend::vulkan::evaluate::evaluate;
 use splitsum::backend::wgsl::{lobe_source, module};
-use splitsum::brdf::fresnel::{Basis, Schlick, SchlickF82};
+use splitsum::brdf::fresnel::{Basis, KINDS, Schlick, SchlickF82};
 use splitsum::brdf::{Fresnel, Masking, Microfacet, Ndf};
-use splitsum::integrate::Integrals;
 use splitsum::integrate::half_vectors::{
     HalfVectorNodes, HalfVectorRule, View, cut_circle, full_circle, half_vectors, integrand,
     radial_weight, ring,
 };
+use splitsum::integrate::{Integrals, mirror};
 use splitsum::numeric::quadrature::slope_map::{
     MappedSlope, Power, slope_at, slope_complement, slope_interval,
 };
@@ -22,8 +22,11 @@ use splitsum::numeric::quadrature::slope_map::{
 pub const TESTS: &[DeviceTest] = &[
     ("functions of models equal their twins", |gpu| {
         let (lobe, nodes) = (ggx(Masking::HeightCorrelated), H288.nodes());
-        let f82 = Fresnel::SchlickF82.definition().wgsl.0;
-        let source = [&source(lobe, Fresnel::Schlick, &nodes), f82].join("\n");
+        let mut modules = vec![source(lobe, Fresnel::Schlick, &nodes)];
+        for kind in KINDS.iter().filter(|kind| kind.wgsl.1 != "schlick_weights") {
+            modules.push(kind.wgsl.0.into());
+        }
+        let source = modules.join("\n");
         let data = node_data(&nodes);
         model_twins::twins().iter().try_for_each(|twin| compare(gpu, &source, &data, twin))
     }),
@@ -111,8 +114,7 @@ fn twins<const N: usize, B: Basis<N>>(
     let power = nodes.power;
     let nodes = || nodes.clone();
     let (full, cut, whole, whole_or_mirror) = (nodes(), nodes(), nodes(), nodes());
-    let mirror =
-        move |mu: f64| filled(basis.of_mirror(mu).map(|weight| lobe.smooth_limit(mu) * weight));
+    let mirror = move |mu: f64| filled(mirror(lobe, basis, mu).map(|integral| integral.value));
     let three = |random: &mut Random| [small(random), small(random), small(random), small(random)];
     vec![
         Twin {

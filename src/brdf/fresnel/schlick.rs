@@ -2,33 +2,50 @@
 //! for Physically-Based Rendering"), so that E(F0) = F0 A + B (Karis 2013).
 
 use super::{Basis, Definition, Integral};
+use crate::numeric::ball::Ball;
 use crate::numeric::lanes::{Number, Real};
 
 /// Schlick's approximation.
 #[derive(Clone, Copy, Debug)]
 pub struct Schlick;
 
+/// A with Schlick's weights.
+pub(super) const A: Integral = Integral {
+    name: "A",
+    meaning: "scale: E(F0) = F0*A + B",
+    relative_error: 1.0,
+    absolute_error: 0.0,
+};
+/// B with Schlick's weights.
+pub(super) const B: Integral = Integral {
+    name: "B",
+    meaning: "bias: E(F0) = F0*A + B",
+    relative_error: 1.0,
+    absolute_error: 0.0,
+};
+
+/// Everything of it but the formulas.
+pub(super) const DEFINITION: Definition = Definition {
+    word: "schlick",
+    usage: "schlick",
+    about: "F = F0 + (1-F0) (1-v.h)^5 (Schlick 1994)",
+    formula: "Schlick: F = F0 + (1 - F0) (1 - v.h)^5",
+    albedo: "E(F0) = F0*A + B",
+    channels: "ab",
+    integrals: &[A, B],
+    wgsl: (include_str!("../../../shaders/schlick.wgsl"), "schlick_weights"),
+};
+
 impl Basis<2> for Schlick {
-    const DEFINITION: Definition = Definition {
-        word: "schlick",
-        about: "F = F0 + (1-F0) (1-v.h)^5 (Schlick 1994)",
-        formula: "Schlick: F = F0 + (1 - F0) (1 - v.h)^5",
-        albedo: "E(F0) = F0*A + B",
-        channels: "ab",
-        integrals: &[
-            Integral { name: "A", meaning: "scale: E(F0) = F0*A + B", relative_error: 1.0 },
-            Integral { name: "B", meaning: "bias: E(F0) = F0*A + B", relative_error: 1.0 },
-        ],
-        wgsl: (include_str!("../../../shaders/schlick.wgsl"), "schlick_weights"),
-    };
+    const DEFINITION: Definition = DEFINITION;
 
     #[inline(always)]
     fn weights<R: Real>(self, vh: R) -> [R; 2] {
         schlick_weights(vh)
     }
 
-    fn of_mirror<R: Number>(self, mu: R) -> [R; 2] {
-        [schlick_complement(mu), schlick_weight(mu)]
+    fn of_mirror(self, mu: f64) -> [Ball; 2] {
+        [schlick_complement(mu.into()), schlick_weight(mu.into())]
     }
 }
 

@@ -9,7 +9,8 @@
 
 use super::schlick::{schlick_complement, schlick_weight};
 use super::{Basis, Definition, Integral};
-use crate::numeric::lanes::{Number, Real};
+use crate::numeric::ball::Ball;
+use crate::numeric::lanes::Real;
 
 /// Schlick's approximation with F82 tint.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +18,8 @@ pub struct SchlickF82;
 
 impl Basis<3> for SchlickF82 {
     const DEFINITION: Definition = Definition {
-        word: "schlick-f82",
+        word: "f82",
+        usage: "f82",
         about: "the same less a v.h (1-v.h)^6: metals with an F82 tint (Hoffman 2019; Kutz et al. \
                 2021)",
         formula: "Schlick with F82 tint: F = F0 + (1 - F0) (1 - v.h)^5 - a v.h (1 - v.h)^6, a = \
@@ -25,13 +27,24 @@ impl Basis<3> for SchlickF82 {
         albedo: "E(F0, tint) = F0*A + B - a*C",
         channels: "abc",
         integrals: &[
-            Integral { name: "A", meaning: "scale: E = F0*A + B - a*C", relative_error: 1.0 },
-            Integral { name: "B", meaning: "bias: E = F0*A + B - a*C", relative_error: 1.0 },
+            Integral {
+                name: "A",
+                meaning: "scale: E = F0*A + B - a*C",
+                relative_error: 1.0,
+                absolute_error: 0.0,
+            },
+            Integral {
+                name: "B",
+                meaning: "bias: E = F0*A + B - a*C",
+                relative_error: 1.0,
+                absolute_error: 0.0,
+            },
             Integral {
                 name: "C",
                 meaning: "tint: E = F0*A + B - a*C, a = (F0 + (1-F0) (6/7)^5) (1-tint) 7 (7/6)^6",
                 // The largest that a search found is 2.6.
                 relative_error: 4.0,
+                absolute_error: 0.0,
             },
         ],
         wgsl: (include_str!("../../../shaders/schlick_f82.wgsl"), "schlick_f82_weights"),
@@ -42,9 +55,10 @@ impl Basis<3> for SchlickF82 {
         schlick_f82_weights(vh)
     }
 
-    fn of_mirror<R: Number>(self, mu: R) -> [R; 3] {
+    fn of_mirror(self, mu: f64) -> [Ball; 3] {
+        let (mu, one) = (Ball::exact(mu), Ball::exact(1.0));
         let w = schlick_weight(mu);
-        [schlick_complement(mu), w, mu * (R::from(1.0) - mu) * w]
+        [schlick_complement(mu), w, mu * (one - mu) * w]
     }
 }
 

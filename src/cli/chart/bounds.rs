@@ -1,8 +1,7 @@
 //! `splitsum chart bounds`
 
 use super::{Devices, MeasuredArgs};
-use crate::brdf::Fresnel;
-use crate::choice::Choice;
+use crate::brdf::fresnel::{Definition, KINDS};
 use crate::cli::{output, print, standard_output};
 use crate::compare::study::Machine;
 use crate::compare::study::bounds::{Finding, Plan, Search, check, everything, search};
@@ -84,9 +83,8 @@ fn page(found: &Search, devices: &Devices, arguments: &BoundsArgs) -> String {
 
 /// The names of the integrals of all Fresnel models.
 fn integrals() -> Vec<&'static str> {
-    let of_model = |fresnel: &Fresnel| fresnel.definition().integrals.iter();
-    let mut names: Vec<&str> =
-        Fresnel::ALL.iter().flat_map(of_model).map(|integral| integral.name).collect();
+    let of_kind = |kind: &Definition| kind.integrals.iter().map(|integral| integral.name);
+    let mut names: Vec<&str> = KINDS.iter().flat_map(of_kind).collect();
     names.sort_unstable();
     names.dedup();
     names

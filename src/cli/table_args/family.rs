@@ -25,28 +25,28 @@ choice!(Family, "lut", {
 });
 
 impl TableArgs {
-    /// The table; `f0`: that of a table for one.
-    pub(super) fn family(&self, f0: F0) -> Result<Packing> {
+    /// The table; `f0` and `fresnel`: those of a table for one.
+    pub(super) fn family(&self, f0: F0, fresnel: Fresnel) -> Result<Packing> {
         match self.lut.unwrap_or(Family::Dfg) {
-            Family::Dfg => self.dfg(Ndf::Ggx, None),
-            Family::Sheen => self.dfg(Ndf::Charlie, Some("e")),
+            Family::Dfg => self.dfg((Ndf::Ggx, fresnel), None),
+            Family::Sheen => self.dfg((Ndf::Charlie, fresnel), Some("e")),
             Family::Energy => {
-                self.check_no_fresnel()?;
+                check_no_fresnel(fresnel)?;
                 let channels = self.channels.as_deref().unwrap_or(EnergyChannels::Split.word());
                 let channels = EnergyChannels::named(channels)?;
                 Energy::new(self.lobe(Ndf::Ggx)?, f0, channels)
                     .map(|energy| Lut::Energy(energy).into())
             }
             Family::Diffuse => {
-                self.check_no_fresnel()?;
+                check_no_fresnel(fresnel)?;
                 self.diffuse().map(|diffuse| Lut::Diffuse(diffuse).into())
             }
         }
     }
 
     /// The integrals of a specular lobe; without other channels all of them.
-    fn dfg(&self, ndf: Ndf, channels: Option<&str>) -> Result<Packing> {
-        let (lobe, fresnel) = (self.lobe(ndf)?, self.fresnel.unwrap_or(Fresnel::Schlick));
+    fn dfg(&self, (ndf, fresnel): (Ndf, Fresnel), channels: Option<&str>) -> Result<Packing> {
+        let lobe = self.lobe(ndf)?;
         let Some(words) = self.channels.as_deref().or(channels) else {
             return Dfg::new(lobe, fresnel, DfgChannels::All).map(|dfg| Lut::Dfg(dfg).into());
         };
@@ -69,14 +69,12 @@ impl TableArgs {
         let ndf = self.model.as_deref().map_or(Ok(default), Ndf::named)?;
         Microfacet::new(ndf, self.masking)
     }
+}
 
-    fn check_no_fresnel(&self) -> Result<()> {
-        match self.fresnel {
-            None | Some(Fresnel::Schlick) => Ok(()),
-            Some(fresnel) => {
-                let expected = "schlick for energy and diffuse";
-                Err(Error::bad_input("fresnel", expected, fresnel.word(), "leave it out"))
-            }
-        }
+fn check_no_fresnel(fresnel: Fresnel) -> Result<()> {
+    if fresnel == Fresnel::Schlick {
+        return Ok(());
     }
+    let expected = "schlick for energy and diffuse";
+    Err(Error::bad_input("fresnel", expected, fresnel.to_string(), "leave it out"))
 }

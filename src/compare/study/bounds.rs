@@ -13,7 +13,6 @@ use super::{Lobe, Share, timed};
 use crate::backend::{Gpu, bake, cpu};
 use crate::brdf::fresnel::Integral;
 use crate::brdf::{Fresnel, Microfacet};
-use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::integrate::Integrand;
 use crate::integrate::rule::{MARGIN, Method, Rule};
@@ -94,7 +93,7 @@ pub type Specular = (Microfacet, Fresnel);
 /// are exact.
 pub fn everything() -> Vec<(Specular, Rule)> {
     let mut all = Vec::new();
-    for &fresnel in Fresnel::ALL {
+    for fresnel in Fresnel::samples() {
         for lobe in Microfacet::all() {
             let serves = |rule: &Rule| rule.applies_to(Integrand::Specular(lobe, fresnel));
             all.extend(RULES.into_iter().filter(serves).map(|rule| ((lobe, fresnel), rule)));

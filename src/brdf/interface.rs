@@ -1,0 +1,159 @@
+//! The rough interface of two dielectrics, which reflects and transmits: glass. Light arrives on
+//! the side of v, where the index of refraction is 1/η of that on the other side.
+//!
+//! Walter, Marschner, Li and Torrance, "Microfacet Models for Refraction through Rough Surfaces",
+//! 2007: with c = v·h and x = n·l for reflection (equations 13, 14 and 20) or x = -n·l for
+//! transmission (equations 16, 17 and 21),
+//!
+//! E = ∫ D(h) (c/μ) F G₂(μ, x) dω_h for reflection, with 1 - F for F for transmission.
+
+use super::masking::{height_correlated, separable};
+use super::{Masking, Microfacet, Ndf};
+use crate::choice::{Choice, choice, words};
+use crate::error::{Error, Result};
+use crate::numeric::lanes::Real;
+use crate::numeric::special::log_beta;
+use crate::units::short;
+
+/// The side of an interface from which it is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// From air, η = n.
+    Outside,
+    /// From the medium, η = 1/n.
+    Inside,
+}
+
+choice!(Side, "side", {
+    Outside = "outside", "seen from air";
+    Inside = "inside", "seen from the medium, with total reflection";
+});
+
+/// Masking and shadowing of transmitted light, whose directions lie on either side of the surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TransmissionMasking {
+    /// The formula of reflection, 1/(1 + Λ(v) + Λ(l)): Cycles, OSPRay.
+    #[default]
+    Correlated,
+    /// G1(v) G1(l) (Walter et al. 2007): Adobe.
+    Separable,
+    /// B(1 + Λ(v), 1 + Λ(l)) for the facets that are seen from both sides (Heitz 2014).
+    Beta,
+}
+
+choice!(TransmissionMasking, "transmission-masking", {
+    Correlated = "correlated", "1/(1 + Lambda(v) + Lambda(l)), as in Cycles and OSPRay";
+    Separable = "separable", "G1(v) G1(l) (Walter et al. 2007), as in Adobe's tables";
+    Beta = "beta", "B(1 + Lambda(v), 1 + Lambda(l)), for facets seen from both sides (Heitz 2014)";
+});
+
+/// A rough interface seen from one side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interface {
+    lobe: Microfacet,
+    ior: f64,
+    side: Side,
+    transmission: TransmissionMasking,
+}
+
+/// The indices of refraction for which the rules' bounds were searched.
+const INDICES: std::ops::RangeInclusive<f64> = 1.0..=4.0;
+
+/// The distributions with a Smith term of their own that is smooth.
+const DISTRIBUTIONS: [Ndf; 2] = [Ndf::Ggx, Ndf::Beckmann];
+const MASKINGS: [Masking; 2] = [Masking::HeightCorrelated, Masking::Separable];
+
+impl Interface {
+    /// The interface to a medium with index of refraction `ior`, 1 to 4; an error where the lobe
+    /// has no Smith term of its own.
+    pub fn new(
+        lobe: Microfacet,
+        ior: f64,
+        side: Side,
+        transmission: TransmissionMasking,
+    ) -> Result<Self> {
+        lobe.check()?;
+        let cure = "choose another one";
+        if !DISTRIBUTIONS.contains(&lobe.ndf) {
+            let (expected, got) = (words(&DISTRIBUTIONS), lobe.ndf.word());
+            return Err(Error::bad_input("model of glass", expected, got, cure));
+        }
+        if !MASKINGS.contains(&lobe.masking) {
+            let (expected, got) = (words(&MASKINGS), lobe.masking.word());
+            return Err(Error::bad_input("masking of glass", expected, got, cure));
+        }
+        if !INDICES.contains(&ior) {
+            let cure = "give an index in that range";
+            return Err(Error::bad_input("index of refraction", "1 to 4", short(ior), cure));
+        }
+        Ok(Interface { lobe, ior, side, transmission })
+    }
+
+    /// The lobe.
+    pub fn lobe(self) -> Microfacet {
+        self.lobe
+    }
+
+    /// n of the medium.
+    pub fn ior(self) -> f64 {
+        self.ior
+    }
+
+    /// The side of v.
+    pub fn side(self) -> Side {
+        self.side
+    }
+
+    /// Masking of transmitted light.
+    pub fn transmission(self) -> TransmissionMasking {
+        self.transmission
+    }
+
+    /// η, the index on the other side over that on the side of v.
+    pub fn eta(self) -> f64 {
+        match self.side {
+            Side::Outside => self.ior,
+            Side::Inside => 1.0 / self.ior,
+        }
+    }
+
+    /// k = η² - 1.
+    pub fn k(self) -> f64 {
+        let k = (self.ior - 1.0) * (self.ior + 1.0);
+        match self.side {
+            Side::Outside => k,
+            Side::Inside => -k / (self.ior * self.ior),
+        }
+    }
+
+    /// The cosine of the critical angle; 0 on the outside, which has none.
+    pub fn critical(self) -> f64 {
+        (-self.k()).max(0.0).sqrt()
+    }
+
+    /// G₂(μ, x)/(4μ) of transmitted light at x = -n·l, with the projected area of n·v given.
+    #[inline(always)]
+    pub fn transmitted_visibility<R: Real>(self, x: R, mu: R, area_v: R, alpha: R) -> R {
+        let area_l = self.lobe.masking_projected_area(x, alpha);
+        match self.transmission {
+            TransmissionMasking::Correlated => height_correlated(x, mu, area_l, area_v),
+            TransmissionMasking::Separable => separable(x, mu, area_l, area_v),
+            TransmissionMasking::Beta => beta(x, mu, area_l, area_v),
+        }
+    }
+}
+
+/// The least cosine at which the beta function is taken: below it 1/(4μ) would overflow.
+const SMALLEST: f64 = 1e-290;
+
+/// G = B(1 + Λ(v), 1 + Λ(l)), Λ = (area/cosine - 1)/2 (Heitz 2014, section 5.3).
+#[inline(always)]
+pub fn beta<R: Real>(x: R, mu: R, area_l: R, area_v: R) -> R {
+    let tiny = R::from(SMALLEST);
+    let (x, mu) = (x.max(tiny), mu.max(tiny));
+    let (v, l) = ((area_v / mu + 1.0) * 0.5, (area_l / x + 1.0) * 0.5);
+    // B/μ as one exponential: either alone may leave the range of numbers.
+    let log_mu = mu.zip(mu, |mu, _| libm::log(4.0 * mu));
+    let log = v.zip(l, log_beta) - log_mu;
+    log.zip(log, |log, _| libm::exp(log))
+}
