@@ -11,6 +11,7 @@ pub mod costs;
 pub mod double_exponential;
 pub mod errors;
 pub mod field;
+pub mod glass;
 pub mod half_vectors;
 pub mod hammersley;
 pub mod interpolant;
@@ -23,6 +24,7 @@ pub mod view_polar;
 pub use field::{Field, ScaleBias};
 
 use crate::brdf::fresnel::Basis;
+use crate::brdf::interface::Interface;
 use crate::brdf::{Diffuse, Fresnel, Microfacet};
 use crate::numeric::ball::Ball;
 use crate::numeric::lanes::Real;
@@ -32,6 +34,8 @@ use crate::numeric::lanes::Real;
 pub enum Integrand {
     /// A specular lobe, to the integrals of its Fresnel model's weights.
     Specular(Microfacet, Fresnel),
+    /// A rough interface of two dielectrics, to its reflection and transmission.
+    Glass(Interface),
     /// A white diffuse lobe, to its albedo; the grid's α is the square of its roughness.
     Diffuse(Diffuse),
 }
@@ -47,6 +51,7 @@ impl Integrand {
     pub fn count(self) -> usize {
         match self {
             Integrand::Specular(_, fresnel) => fresnel.count(),
+            Integrand::Glass(_) => 2,
             Integrand::Diffuse(_) => 1,
         }
     }
@@ -57,6 +62,7 @@ impl Integrand {
             Integrand::Specular(_, fresnel) => {
                 fresnel.definition().integrals.iter().map(|integral| integral.name).collect()
             }
+            Integrand::Glass(_) => vec!["R", "T"],
             Integrand::Diffuse(_) => vec!["E"],
         }
     }
@@ -65,6 +71,7 @@ impl Integrand {
     pub fn may_exceed_one(self) -> bool {
         match self {
             Integrand::Specular(lobe, _) => lobe.may_exceed_one(),
+            Integrand::Glass(_) => false,
             Integrand::Diffuse(_) => true,
         }
     }

@@ -34,7 +34,8 @@
 //! - `image`: pictures of numbers
 //! - `numeric`: vector registers, error bounds, halves, special functions, quadrature
 //! - `table`: axes, storage, claims, slices
-//! - `brdf`: distributions of normals, masking, Fresnel, diffuse lobes, with their citations
+//! - `brdf`: distributions of normals, masking, Fresnel, interfaces, diffuse lobes, with their
+//!   citations
 //! - `integrate`: from a lobe to its integrals; the rules, their bounds and costs
 //! - `lut`: the families of tables and their channels
 //! - `request`: a checked job, which prints itself as the command that repeats it
@@ -118,6 +119,8 @@ pub mod cli;
 pub use backend::device::{DeviceInfo, GpuOptions};
 pub use backend::{Backend, BackendChoice};
 pub use bake::{Baked, Plan, bake};
+pub use brdf::fresnel::{Conductor, Dielectric, SchlickPower};
+pub use brdf::interface::{Interface, Side, TransmissionMasking};
 pub use brdf::{Diffuse, Fresnel, Masking, Microfacet, Ndf};
 pub use choice::Choice;
 pub use error::{Complaint, Error, ExitCode, Result};
@@ -127,7 +130,7 @@ pub use integrate::hammersley::{Frame, Hammersley};
 pub use integrate::rule::Rule;
 pub use lookup::{Extra, Language, Lookup, Store};
 pub use lut::terms::packing;
-pub use lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut, Packing};
+pub use lut::{Dfg, DfgChannels, Energy, EnergyChannels, Glass, GlassChannels, Lut, Packing};
 pub use report::{Checks, Computed, Report, Seconds};
 pub use request::{Accuracy, Request};
 pub use table::axis::{Axis, AxisSpec, Mapping, Nodes, Parameter};

@@ -2,12 +2,14 @@
 
 pub mod dfg;
 pub mod energy;
+pub mod glass;
 pub mod packing;
 pub mod sheet;
 pub mod terms;
 
 pub use dfg::{Dfg, DfgChannels};
 pub use energy::{Energy, EnergyChannels};
+pub use glass::{Glass, GlassChannels};
 pub use packing::{Content, Packing, Part, Source};
 
 use crate::brdf::{Diffuse, Fresnel, Microfacet};
@@ -16,7 +18,7 @@ use crate::error::{Error, Result};
 use crate::integrate::Integrand;
 use crate::numeric::ball::Ball;
 use crate::table::axis::Parameter;
-use crate::table::{Channel, Provenance};
+use crate::table::{Channel, InterfaceText, Provenance};
 use crate::units::F0;
 
 /// The most channels of a texel.
@@ -29,6 +31,8 @@ pub enum Lut {
     Dfg(Dfg),
     /// The energy that a specular lobe leaves and loses.
     Energy(Energy),
+    /// What a rough interface reflects and transmits.
+    Glass(Glass),
     /// The albedo of a white diffuse lobe.
     Diffuse(Diffuse),
 }
@@ -42,6 +46,7 @@ impl Lut {
         match self {
             Lut::Dfg(_) => "dfg",
             Lut::Energy(_) => "energy",
+            Lut::Glass(_) => "glass",
             Lut::Diffuse(_) => "diffuse",
         }
     }
@@ -51,6 +56,7 @@ impl Lut {
         match self {
             Lut::Dfg(dfg) => Integrand::Specular(dfg.lobe(), dfg.fresnel()),
             Lut::Energy(energy) => energy.lobe().into(),
+            Lut::Glass(glass) => Integrand::Glass(glass.interface()),
             Lut::Diffuse(diffuse) => Integrand::Diffuse(*diffuse),
         }
     }
@@ -59,7 +65,15 @@ impl Lut {
     pub fn fresnel(&self) -> Option<Fresnel> {
         match self {
             Lut::Dfg(dfg) => Some(dfg.fresnel()),
-            Lut::Energy(_) | Lut::Diffuse(_) => None,
+            Lut::Energy(_) | Lut::Glass(_) | Lut::Diffuse(_) => None,
+        }
+    }
+
+    /// The index of refraction of a table for one: glass.
+    pub fn ior(&self) -> Option<f64> {
+        match self {
+            Lut::Glass(glass) => Some(glass.interface().ior()),
+            Lut::Dfg(_) | Lut::Energy(_) | Lut::Diffuse(_) => None,
         }
     }
 
@@ -68,7 +82,7 @@ impl Lut {
     pub fn with_fresnel(&self, fresnel: Fresnel) -> Result<Lut> {
         match self {
             Lut::Dfg(dfg) => dfg.with_fresnel(fresnel).map(Lut::Dfg),
-            Lut::Energy(_) | Lut::Diffuse(_) => {
+            Lut::Energy(_) | Lut::Glass(_) | Lut::Diffuse(_) => {
                 let cure = "bake dfg, or leave it out";
                 Err(Error::bad_input("fresnel", "schlick", fresnel.to_string(), cure))
             }
@@ -81,7 +95,7 @@ impl Lut {
             Lut::Energy(energy) if energy.channels() == EnergyChannels::Split => {
                 Some(energy.f0().get())
             }
-            Lut::Energy(_) | Lut::Dfg(_) | Lut::Diffuse(_) => None,
+            Lut::Energy(_) | Lut::Dfg(_) | Lut::Glass(_) | Lut::Diffuse(_) => None,
         }
     }
 
@@ -92,9 +106,11 @@ impl Lut {
             (Lut::Energy(energy), Parameter::F0) if self.f0().is_some() => {
                 Energy::new(energy.lobe(), F0::new(value)?, energy.channels()).map(Lut::Energy)
             }
-            (Lut::Dfg(_) | Lut::Energy(_) | Lut::Diffuse(_), _) => {
+            (Lut::Glass(glass), Parameter::Ior) => glass.at_ior(value).map(Lut::Glass),
+            (Lut::Dfg(_) | Lut::Energy(_) | Lut::Glass(_) | Lut::Diffuse(_), _) => {
                 let expected = "a parameter that the table varies with";
-                let cure = "bake the split of energy, or leave the slices out";
+                let cure =
+                    "bake the split of energy for f0 or glass for ior, or leave the slices out";
                 Err(Error::bad_input("slices", expected, parameter.word(), cure))
             }
         }
@@ -104,7 +120,7 @@ impl Lut {
     pub fn needs_averages(&self) -> bool {
         match self {
             Lut::Energy(_) => true,
-            Lut::Dfg(_) | Lut::Diffuse(_) => false,
+            Lut::Dfg(_) | Lut::Glass(_) | Lut::Diffuse(_) => false,
         }
     }
 
@@ -112,6 +128,7 @@ impl Lut {
     pub fn at_most_one(&self) -> bool {
         match self {
             Lut::Dfg(_) => !self.integrand().may_exceed_one(),
+            Lut::Glass(_) => true,
             // (1-E)/E and R exceed 1, and so do some diffuse lobes.
             Lut::Energy(_) | Lut::Diffuse(_) => false,
         }
@@ -126,6 +143,7 @@ impl Lut {
                     |&(name, meaning): &(&'static str, &'static str)| Channel::new(name, meaning);
                 energy.channels().list().iter().map(named).collect()
             }
+            Lut::Glass(glass) => glass.list(),
             Lut::Diffuse(_) => vec![Channel::new(ALBEDO.0, ALBEDO.1)],
         }
     }
@@ -137,6 +155,7 @@ impl Lut {
             Lut::Energy(energy) => {
                 format!("{} --channels {}", lobe_flags(energy.lobe()), energy.channels())
             }
+            Lut::Glass(glass) => glass.flags(glass.interface().side().word()),
             Lut::Diffuse(diffuse) => format!("--model {diffuse}"),
         }
     }
@@ -152,15 +171,34 @@ impl Lut {
                 ),
                 model: ndf.word(),
                 masking: Some(masking.word()),
+                interface: None,
                 fresnel: Some(fresnel.formula()),
                 f0: self.f0(),
                 roughness: ndf.definition().roughness,
+            },
+            (_, Integrand::Glass(interface)) => Provenance {
+                table: self.name(),
+                equation:
+                    "R = integral of f_r(l,v) |n.l|, T = integral of f_t(l,v) |n.l| over all \
+                           directions l, f_t without the factor of radiance (Walter et al. 2007)"
+                        .into(),
+                model: interface.lobe().ndf.word(),
+                masking: Some(interface.lobe().masking.word()),
+                interface: Some(InterfaceText {
+                    ior: interface.ior(),
+                    side: interface.side().word(),
+                    transmission_masking: interface.transmission().word(),
+                }),
+                fresnel: Some("Fresnel's equations for unpolarised light".into()),
+                f0: None,
+                roughness: interface.lobe().ndf.definition().roughness,
             },
             (_, Integrand::Diffuse(model)) => Provenance {
                 table: self.name(),
                 equation: model.source().into(),
                 model: model.word(),
                 masking: None,
+                interface: None,
                 fresnel: None,
                 f0: None,
                 roughness: model.roughness(),
@@ -176,6 +214,7 @@ impl Lut {
         match self {
             Lut::Dfg(dfg) => dfg.values(integrals),
             Lut::Energy(energy) => energy.values(mu, integrals, averages),
+            Lut::Glass(glass) => glass.values(integrals),
             Lut::Diffuse(_) => first(integrals),
         }
     }

@@ -78,9 +78,13 @@ impl Request {
     ) -> Result<Self> {
         let (packing, grid) = (packing.into(), Grid::new(&x, &y)?);
         for lut in packing.luts() {
-            if let Integrand::Specular(lobe, _) = lut.integrand() {
-                check_finite(lobe, &grid)?;
-                check_alpha(lobe, &grid)?;
+            match lut.integrand() {
+                Integrand::Specular(lobe, _) => {
+                    check_finite(lobe, &grid)?;
+                    check_alpha(lobe, &grid)?;
+                }
+                Integrand::Glass(interface) => check_alpha(interface.lobe(), &grid)?,
+                Integrand::Diffuse(_) => (),
             }
         }
         check_accuracy(&packing, &grid, accuracy, precision)?;
@@ -289,6 +293,7 @@ fn check_part(lut: &Lut, grid: &Grid, accuracy: Accuracy, precision: Precision) 
                 let got = match lut {
                     Lut::Energy(_) => "what averages are needed for".to_owned(),
                     Lut::Dfg(dfg) => format!("those of {}", dfg.lobe().ndf),
+                    Lut::Glass(_) => "those of glass".to_owned(),
                     Lut::Diffuse(diffuse) => format!("that of {diffuse}"),
                 };
                 Err(Error::bad_input("estimator", "integrals of ggx alone", got, cure))
@@ -327,9 +332,9 @@ impl fmt::Display for Request {
             (Some(fresnel), _) => write!(f, " --fresnel {fresnel}")?,
         }
         let spec = slices.as_ref().and_then(Slices::spec);
-        match (slices, spec, main.f0()) {
+        match (slices, spec, main.f0().map(|f0| ("f0", f0)).or(main.ior().map(|n| ("ior", n)))) {
             (Some(slices), None, _) => write!(f, " --{} {}", slices.word(), slices.list())?,
-            (None, _, Some(f0)) => write!(f, " --f0 {}", short(f0))?,
+            (None, _, Some((word, value))) => write!(f, " --{word} {}", short(value))?,
             _ => (),
         }
         write!(f, " --size {}x{}", x.size(), y.size())?;

@@ -59,6 +59,9 @@ pub struct Provenance {
     /// The masking term of a specular lobe.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub masking: Option<&'static str>,
+    /// What else there is to know of a rough interface.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub interface: Option<InterfaceText>,
     /// Fresnel of a specular lobe.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub fresnel: Option<String>,
@@ -67,6 +70,18 @@ pub struct Provenance {
     pub f0: Option<f64>,
     /// The meaning of roughness.
     pub roughness: &'static str,
+}
+
+/// A rough interface in words for the metadata.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct InterfaceText {
+    /// Index of refraction of the medium.
+    pub ior: f64,
+    /// The side from which it is seen.
+    pub side: &'static str,
+    /// Masking of transmitted light.
+    pub transmission_masking: &'static str,
 }
 
 /// The origin and the claim of the channels that are integrated together.

@@ -184,12 +184,12 @@ fn wrong_configurations_say_where() {
         ("[[table]]\noutput = 'a.exr'\ntolerance = 1e-3\nrule = 'h56'", "got both"),
         ("[[table", "line 1"),
         ("[[table]]\noutput = 'a.exr'\ncertify = 'perhaps'", "expected on, off, got 'perhaps'"),
-        ("[[table]]\noutput = 'a.exr'\nrule = 'simpson'", "s2304, got 'simpson'"),
+        ("[[table]]\noutput = 'a.exr'\nrule = 'simpson'", "g3840, got 'simpson'"),
         ("[[table]]\noutput = 'a.exr'\nmodel = 'phong'", "charlie, got 'phong'"),
         ("[[table]]\noutput = 'a.exr'\nmasking = 'none'", "neubelt, got 'none'"),
         (
             "[[table]]\noutput = 'a.exr'\nlut = 'velvet'",
-            "expected dfg, sheen, energy, diffuse, got 'velvet'",
+            "expected dfg, sheen, energy, glass, diffuse, got 'velvet'",
         ),
         ("[[table]]\noutput = 'a.exr'\nchannels = 'rgb'", "expected ab, be, e, or terms"),
         ("[[table]]\noutput = 'a.exr'\nprecision = 'f64'", "f16 or f32 for .exr"),
@@ -246,7 +246,7 @@ fn wrong_values_are_refused_with_what_was_expected() {
     refused(
         "bake --lut energy --channels average --ior 2",
         4,
-        &["ior: expected the split", "--channels average"],
+        &["ior: expected glass or the split", "--channels average"],
     );
     refused("bake --lut energy --f0 -1e-3", 4, &["expected 0 to 1, got -0.001"]);
     refused("bake --lut energy --f0 -.02,0.04", 4, &["expected 0 to 1, got -0.02"]);

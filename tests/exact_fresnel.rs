@@ -1,5 +1,5 @@
-//! The exact equations of interfaces and Schlick's with other exponents: the formulas beside others,
-//! the integrals beside published figures, the words, the files.
+//! The exact equations of interfaces and Schlick's with other exponents: the formulas beside
+//! others, the integrals beside published figures, the words, the files.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;

@@ -1,8 +1,10 @@
 //! The architecture's invariants, as src/lib.rs and the README state them.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
-use splitsum::brdf::{Microfacet, Ndf};
+use splitsum::brdf::interface::{Interface, Side, TransmissionMasking};
+use splitsum::brdf::{Masking, Microfacet, Ndf};
 use splitsum::choice::Choice;
+use splitsum::integrate::Integrand;
 use splitsum::integrate::rule::Method;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -236,6 +238,22 @@ fn the_page_of_accuracy_has_the_rules_and_their_bounds() {
         let bounds = Ndf::ALL.iter().map(|&ndf| bound(ndf)).collect::<Vec<_>>().join(" | ");
         let row = format!("| `{}` | {evaluations} | {bounds} |", rule.name);
         assert!(page.contains(&row), "no row '{row}' in docs/accuracy.md");
+    }
+    let interface = |ndf, ior, transmission| {
+        let lobe = Microfacet { ndf, masking: Masking::HeightCorrelated };
+        Integrand::Glass(Interface::new(lobe, ior, Side::Inside, transmission).unwrap())
+    };
+    let (correlated, beta) = (TransmissionMasking::Correlated, TransmissionMasking::Beta);
+    let kinds =
+        [(Ndf::Ggx, 1.5, correlated), (Ndf::Beckmann, 1.5, correlated), (Ndf::Ggx, 1.5, beta)];
+    for rule in splitsum::integrate::rules::RULES {
+        let bound = |(ndf, ior, transmission)| rule.bound(interface(ndf, ior, transmission));
+        let bounds = kinds.map(bound);
+        if bounds.iter().all(|bound| bound.is_finite()) {
+            let [ggx, beckmann, beta] = bounds;
+            let row = format!("| `{}` | {ggx:e} | {beckmann:e} | {beta:e} |", rule.name);
+            assert!(page.contains(&row), "no row '{row}' in docs/accuracy.md");
+        }
     }
 }
 

@@ -109,6 +109,7 @@ impl Approximation {
             equation: format!("channels: {}", self.channels.about()),
             model: self.lobe.ndf.word(),
             masking: Some(self.lobe.masking.word()),
+            interface: None,
             fresnel: Some("Schlick: F = F0 + (1 - F0) (1 - n.v)^5".into()),
             f0: (low == high).then_some(low),
             roughness: self.lobe.ndf.definition().roughness,

@@ -1,6 +1,9 @@
 //! The CPU: f64, eight texels at a time in its vector registers. Every texel stands on its own, so
 //! that neither threads nor vectors can change a bit of the result.
 
+mod glass;
+
+use self::glass::Glass;
 use super::Progress;
 use crate::brdf::fresnel::{Basis, with_basis};
 use crate::brdf::{Diffuse, Microfacet};
@@ -46,6 +49,7 @@ impl Baker {
             Integrand::Specular(lobe, fresnel) => {
                 with_basis!(fresnel, basis => specular(lobe, basis, rule))
             }
+            Integrand::Glass(interface) => Arc::new(Glass::new(interface, rule)),
             Integrand::Diffuse(diffuse) => Arc::new(ClosedForm { diffuse }),
         };
         Baker { rule: *rule, count: integrand.count(), work }
@@ -204,7 +208,9 @@ fn specular<const N: usize, B: Basis<N>>(lobe: Microfacet, basis: B, rule: &Rule
         Method::DoubleExponential(rule) => Arc::new(by(Nodes::DoubleExponential(rule.nodes()))),
         // A closed form serves for no specular lobe: whoever asks for it all the same gets the
         // source of truth.
-        Method::ClosedForm => specular(lobe, basis, &crate::integrate::rules::REFERENCE),
+        Method::ClosedForm | Method::Glass(_) => {
+            specular(lobe, basis, &crate::integrate::rules::REFERENCE)
+        }
         Method::Interpolant(rule) => {
             let source = by(Nodes::LightDirections(rule.source.nodes()));
             let integrals = in_chunks(&source, N, &rule.points());

@@ -143,6 +143,9 @@ fn device_rule(request: &Request, part: &Part) -> std::result::Result<Rule, Comp
             "diffuse, whose closed forms the CPU has at once",
         );
     }
+    if let Integrand::Glass(_) = integrand {
+        return on_cpu("lut", "one that devices integrate", "glass");
+    }
     if let Integrand::Specular(_, fresnel) = integrand
         && let Some(expected) = fresnel.obstacle_on_device()
     {

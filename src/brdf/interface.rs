@@ -11,6 +11,7 @@ use super::masking::{height_correlated, separable};
 use super::{Masking, Microfacet, Ndf};
 use crate::choice::{Choice, choice, words};
 use crate::error::{Error, Result};
+use crate::numeric::ball::Ball;
 use crate::numeric::lanes::Real;
 use crate::numeric::special::log_beta;
 use crate::units::short;
@@ -89,13 +90,23 @@ impl Interface {
         Ok(Interface { lobe, ior, side, transmission })
     }
 
+    /// The same interface seen from this side.
+    pub fn from(self, side: Side) -> Self {
+        Interface { side, ..self }
+    }
+
+    /// The same with another index of refraction.
+    pub fn at_ior(self, ior: f64) -> Result<Self> {
+        Interface::new(self.lobe, ior, self.side, self.transmission)
+    }
+
     /// The lobe.
-    pub fn lobe(self) -> Microfacet {
+    pub const fn lobe(self) -> Microfacet {
         self.lobe
     }
 
     /// n of the medium.
-    pub fn ior(self) -> f64 {
+    pub const fn ior(self) -> f64 {
         self.ior
     }
 
@@ -105,7 +116,7 @@ impl Interface {
     }
 
     /// Masking of transmitted light.
-    pub fn transmission(self) -> TransmissionMasking {
+    pub const fn transmission(self) -> TransmissionMasking {
         self.transmission
     }
 
@@ -129,6 +140,80 @@ impl Interface {
     /// The cosine of the critical angle; 0 on the outside, which has none.
     pub fn critical(self) -> f64 {
         (-self.k()).max(0.0).sqrt()
+    }
+
+    /// R and T where they are known to their last digits, each with the bound of its error.
+    ///
+    /// α = 0 is a mirror: F, and 1 - F. η = 1 reflects nothing, and transmits straight through: T
+    /// is G₂(v, -v)/G₁(v), with S = μ(1 + 2Λ) for correlated masking (μ + S)/(2S) and for separable
+    /// 2μ/(μ + S). Seen from inside at n·v = 0 nothing is transmitted, unless η = 1.
+    pub fn exact(self, mu: f64, alpha: f64) -> [Option<Ball>; 2] {
+        let zero = Ball::exact(0.0);
+        if alpha == 0.0 {
+            let [reflected, transmitted] = self.of_mirror(mu);
+            return [Some(reflected), Some(transmitted)];
+        }
+        if self.ior == 1.0 {
+            return [Some(zero), self.straight(mu, alpha)];
+        }
+        match self.side {
+            Side::Inside if mu == 0.0 => [None, Some(zero)],
+            Side::Inside | Side::Outside => [None, None],
+        }
+    }
+
+    /// F and 1 - F at n·v = `mu`.
+    fn of_mirror(self, mu: f64) -> [Ball; 2] {
+        let (zero, one) = (Ball::exact(0.0), Ball::exact(1.0));
+        if self.ior == 1.0 {
+            return [zero, one];
+        }
+        let (n, c) = (Ball::exact(self.ior), Ball::exact(mu));
+        let n2 = n * n;
+        let (k, eta2) = match self.side {
+            Side::Outside => (n2 - one, n2),
+            Side::Inside => ((one - n2) / n2, one / n2),
+        };
+        let g2 = k + c * c;
+        if g2.high() <= 0.0 {
+            return [one, zero];
+        }
+        if g2.low() <= 0.0 {
+            // 1 - F is at most 2 (g/c) (1 + 1/η²).
+            let most = 2.0 * g2.high().sqrt() / mu * (1.0 + n2.value) * 1.001;
+            let half = Ball { value: 0.5 * most, error: 0.5 * most };
+            return [one - half, half];
+        }
+        let g = g2.sqrt();
+        let (s, p, s2) = (g + c, eta2 * c + g, (one - c) * (one + c));
+        let a = k / (s * s * (c * g + s2));
+        let passed = (c * g + c * g) * (p * p + eta2 * s * s) / (s * s * p * p);
+        [a * a * (c * c * g2 + s2 * s2), passed]
+    }
+
+    /// T with η = 1; none where masking has no closed form.
+    fn straight(self, mu: f64, alpha: f64) -> Option<Ball> {
+        let (c, a) = (Ball::exact(mu), Ball::exact(alpha));
+        let one = Ball::exact(1.0);
+        let area = match self.lobe.ndf {
+            Ndf::Ggx if alpha == 1.0 => one,
+            Ndf::Ggx => (c * c + a * a * ((one - c) * (one + c))).sqrt(),
+            _ => {
+                let value = self.lobe.masking_projected_area(mu, alpha);
+                // A few units in the last place of its functions.
+                Ball { value, error: 16.0 * f64::EPSILON * value }
+            }
+        };
+        match self.transmission {
+            TransmissionMasking::Correlated => Some((c + area) / (area + area)),
+            TransmissionMasking::Separable => Some((c + c) / (c + area)),
+            TransmissionMasking::Beta => None,
+        }
+    }
+
+    /// Whether F changes faster at grazing incidence than rules resolve.
+    pub fn has_layer(self) -> bool {
+        self.ior < 1.01
     }
 
     /// G₂(μ, x)/(4μ) of transmitted light at x = -n·l, with the projected area of n·v given.

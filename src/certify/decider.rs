@@ -45,6 +45,7 @@ pub(super) struct Decider<'a> {
 struct Row<'a> {
     /// The lobe of a row of mirrors whose integrals are known to the last digits.
     mirror: Option<(Microfacet, Fresnel)>,
+    alpha: f64,
     errors: RowErrors,
     margin: Option<RowErrors>,
     averages: &'a [Ball],
@@ -57,10 +58,16 @@ impl Decider<'_> {
             Integrand::Specular(lobe, fresnel) if self.exact_mirrors && alpha == 0.0 => {
                 Some((lobe, fresnel))
             }
-            Integrand::Specular(..) | Integrand::Diffuse(_) => None,
+            Integrand::Specular(..) | Integrand::Glass(_) | Integrand::Diffuse(_) => None,
         };
         let margin = self.margin.map(|margin| margin.row(alpha));
-        Row { mirror, errors: self.errors.row(alpha), margin, averages: self.averages.row(row) }
+        Row {
+            mirror,
+            alpha,
+            errors: self.errors.row(alpha),
+            margin,
+            averages: self.averages.row(row),
+        }
     }
 
     /// Takes over a texel's values if this stage decides them, and the best guess if it does not.
@@ -121,7 +128,11 @@ impl Decider<'_> {
         open: &mut bool,
     ) -> Verdict {
         let mu = self.task.grid.mus[column];
-        let balls = balls(row, mu, integrals);
+        let mut balls = balls(row, mu, integrals);
+        if let Integrand::Glass(interface) = self.task.lut.integrand() {
+            let exact = interface.exact(mu, row.alpha);
+            balls.iter_mut().zip(exact).for_each(|(ball, exact)| *ball = exact.unwrap_or(*ball));
+        }
         let (same, error) = self.task.store(mu, &balls[..integrals.len()], row.averages, values);
         let decided = self.rounds_correctly && same;
         *open = !decided;

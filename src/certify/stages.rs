@@ -5,7 +5,7 @@ use crate::backend::cpu::Baker;
 use crate::integrate::Integrand;
 use crate::integrate::errors::Errors;
 use crate::integrate::rule::{Method, Rule};
-use crate::integrate::rules::{CLOSED_FORM, D10240, REFERENCE};
+use crate::integrate::rules::{CLOSED_FORM, D10240, G1152, G3840, REFERENCE};
 use crate::table::claim::{Stage, StageError};
 use crate::table::grid::Grid;
 use crate::table::precision::Precision;
@@ -34,9 +34,8 @@ pub fn rules(task: &Task) -> Vec<Rule> {
     // At a roughness where Charlie's rules are as sharp as any lobe's.
     let error = |rule: &Rule| rule.bound_at(integrand, 1.0);
     let mut rules: Vec<Rule> = first.into_iter().collect();
-    for rule in
-        [D10240, REFERENCE, CLOSED_FORM].into_iter().filter(|rule| rule.applies_to(integrand))
-    {
+    let finer = [G1152, G3840, D10240, REFERENCE, CLOSED_FORM];
+    for rule in finer.into_iter().filter(|rule| rule.applies_to(integrand)) {
         if rules.last().is_none_or(|last| error(&rule) < error(last)) {
             rules.push(rule);
         }
@@ -77,7 +76,7 @@ impl Stages {
 
     /// Whether the stage is the reference.
     pub(super) fn is_reference(&self, stage: usize) -> bool {
-        self.bakers[stage].rule.name == REFERENCE.name
+        self.bakers[stage].rule.is_reference()
     }
 }
 
@@ -93,7 +92,7 @@ pub(super) fn summary(
     let of_row = |&alpha: &f64| {
         let row = errors.row(alpha);
         let by_decade = decades.map(|b| row.of(&[0.0, b])[1]);
-        StageError { largest: row.of(&[0.0])[0], by_decade }
+        StageError { largest: row.of(&[1.0])[0], by_decade }
     };
     let bounds = grid.alphas.iter().map(of_row).filter(|bound| bound.largest.is_finite());
     Stage { by, error: bounds.reduce(StageError::or_wider), texels, decided }

@@ -6,7 +6,7 @@ use crate::choice::Choice;
 use crate::error::Result;
 use crate::format::{FORMATS, Format};
 use crate::integrate::rules::RULES;
-use crate::lut::{DfgChannels, EnergyChannels};
+use crate::lut::{DfgChannels, EnergyChannels, GlassChannels};
 use crate::preset::presets;
 use crate::table::precision::Precision;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -92,7 +92,10 @@ fn names_of_channels() -> Vec<PossibleValue> {
     let of_energy = EnergyChannels::ALL.iter().map(|channels| {
         PossibleValue::new(channels.word()).help(format!("of energy: {}", channels.about()))
     });
-    distinct(of_dfg.chain(of_energy))
+    let of_glass = GlassChannels::ALL.iter().map(|channels| {
+        PossibleValue::new(channels.word()).help(format!("of glass: {}", channels.about()))
+    });
+    distinct(of_dfg.chain(of_energy).chain(of_glass))
 }
 
 /// The parser of a rule's name.

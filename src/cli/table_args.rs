@@ -3,14 +3,16 @@
 
 mod family;
 mod preset;
+mod slices;
 mod values;
 
-use self::family::Family;
+use self::family::{Family, Sides};
 use self::values::{Numbers, Size};
 use super::choices;
 use super::lookup::language_of;
 use super::output::DEFAULT_FOLDER;
-use crate::brdf::{Fresnel, Masking};
+use crate::brdf::Masking;
+use crate::brdf::interface::TransmissionMasking;
 use crate::choice::choice;
 use crate::error::{Error, Result};
 use crate::format::encoding::{Notation, Supercompress};
@@ -21,8 +23,7 @@ use crate::lut::Packing;
 use crate::request::{Accuracy, DEFAULT_SIZE, Request};
 use crate::table::axis::{Axis, AxisSpec, Parameter};
 use crate::table::precision::Precision;
-use crate::table::slices::{Slices, SlicesAs};
-use crate::units::{F0, Ior};
+use crate::table::slices::SlicesAs;
 use serde::Deserialize;
 
 /// The table; everything has a default.
@@ -63,9 +64,16 @@ pub struct TableArgs {
         allow_hyphen_values = true
     )]
     f0: Option<Numbers>,
-    /// Index of refraction instead of F0: F0 = ((1-n)/(1+n))^2
-    #[arg(long, value_name = "N", conflicts_with = "z", allow_hyphen_values = true)]
-    ior: Option<f64>,
+    /// Index of refraction of glass, from 1 to 4, several of which are slices; of the split of
+    /// energy instead of F0: F0 = ((1-n)/(1+n))^2 [default of glass: 1.5]
+    #[arg(long, value_name = "N[,N...]", conflicts_with = "z", allow_hyphen_values = true)]
+    ior: Option<Numbers>,
+    /// Side of glass from which it is seen [default: outside]
+    #[arg(long, value_name = "NAME", value_parser = choices::of::<Sides>())]
+    side: Option<Sides>,
+    /// Masking of what glass transmits; the three differ by up to 0.66 [default: correlated]
+    #[arg(long, value_name = "NAME", value_parser = choices::of::<TransmissionMasking>())]
+    transmission_masking: Option<TransmissionMasking>,
     /// Columns x rows, each 1 to 16384, and slices, 1 to 64, where there is a z axis; one number
     /// for a square [default: 128]
     #[arg(long, value_name = "N|WxH|WxHxD", allow_hyphen_values = true)]
@@ -155,9 +163,6 @@ choice!(Switch, "certify", {
     On = "on", "certify every value";
     Off = "off", "check a sample";
 });
-
-/// F0 of most dielectrics: an index of refraction of 1.5.
-const DEFAULT_F0: f64 = 0.04;
 
 /// Whether a flag is given.
 #[cfg(feature = "compare")]
@@ -254,68 +259,38 @@ impl TableArgs {
         let (columns, rows, depth) =
             self.size.as_ref().map_or(Ok((DEFAULT_SIZE, DEFAULT_SIZE, None)), Size::parse)?;
         let (x, y) = self.axes(columns, rows)?;
-        let f0s = self.f0s()?;
-        let fresnels = self.fresnels()?;
-        let packing = self.family(f0s[0], fresnels[0])?;
-        let lut = packing.main();
-        if lut.f0().is_none() && (self.f0.is_some() || self.ior.is_some()) {
-            let what = if self.ior.is_some() { "ior" } else { "f0" };
-            let got = packing.flags().to_owned();
-            let cure = "leave it out: no other table depends on F0";
-            return Err(Error::bad_input(what, "the split of energy beside it", got, cure));
-        }
+        let (iors, fresnels) = (self.iors()?, self.fresnels()?);
+        let f0s = self.f0s(&iors)?;
+        let packing = self.family(f0s[0], iors[0], fresnels[0])?;
+        self.check_flags_serve(&packing)?;
         let accuracy = accuracy(&packing)?;
         let request = Request::new(packing, x, y, accuracy, precision)?;
-        match self.slices(&f0s, depth)? {
+        match self.slices(&request, &f0s, &iors, depth)? {
             None if fresnels.len() > 1 => request.with_fresnel(&fresnels),
             None => Ok(request),
             Some(slices) => request.with_slices(slices),
         }
     }
 
-    /// The Fresnel model of each slice.
-    fn fresnels(&self) -> Result<Vec<Fresnel>> {
-        self.fresnel.as_deref().map_or(Ok(vec![Fresnel::Schlick]), Fresnel::list)
-    }
-
-    /// F0 of each slice; of a table over two axes its own.
-    fn f0s(&self) -> Result<Vec<F0>> {
-        match (&self.f0, self.ior) {
-            (Some(_), Some(_)) => Err(Error::bad_input(
-                "f0",
-                "F0 or an index of refraction",
-                "both",
-                "leave one of them out",
-            )),
-            (Some(f0s), None) => f0s.parse()?.into_iter().map(F0::new).collect(),
-            (None, Some(n)) => Ok(vec![F0::from(Ior::new(n)?)]),
-            (None, None) => Ok(vec![F0::new(DEFAULT_F0)?]),
+    /// Refuses flags that the family does not follow.
+    fn check_flags_serve(&self, packing: &Packing) -> Result<()> {
+        let lut = packing.main();
+        let (has_f0, has_ior) = (lut.f0().is_some(), lut.ior().is_some());
+        let got = packing.flags().to_owned();
+        if self.f0.is_some() && !has_f0 {
+            let cure = "leave it out: no other table depends on F0";
+            return Err(Error::bad_input("f0", "the split of energy beside it", got, cure));
         }
-    }
-
-    /// The slices: along z, or at several F0.
-    fn slices(&self, f0s: &[F0], depth: Option<usize>) -> Result<Option<Slices>> {
-        match (&self.z, depth) {
-            (Some(_), _) if self.f0.is_some() || self.ior.is_some() => Err(Error::bad_input(
-                "z",
-                "an axis, or values of F0",
-                "both",
-                "leave one of them out",
-            )),
-            (Some(z), Some(depth)) => {
-                Slices::along(&Axis::new(z.parse::<AxisSpec>()?, depth)?).map(Some)
-            }
-            (Some(_), None) => {
-                let expected = "columns, rows and slices where there is a z axis";
-                Err(Error::bad_input("size", expected, "no slices", "as in 64x64x16"))
-            }
-            (None, Some(_)) => {
-                let cure = "add a z axis, as in --z f0";
-                Err(Error::bad_input("size", "columns and rows without a z axis", "slices", cure))
-            }
-            (None, None) if f0s.len() > 1 => Slices::at_f0s(f0s).map(Some),
-            (None, None) => Ok(None),
+        if self.ior.is_some() && !has_f0 && !has_ior {
+            let cure = "leave it out: no other table depends on it";
+            let expected = "glass or the split of energy beside it";
+            return Err(Error::bad_input("ior", expected, got, cure));
         }
+        if (self.side.is_some() || self.transmission_masking.is_some()) && !has_ior {
+            let what = if self.side.is_some() { "side" } else { "transmission-masking" };
+            return Err(Error::bad_input(what, "glass beside it", got, "add --lut glass"));
+        }
+        Ok(())
     }
 
     fn axes(&self, columns: usize, rows: usize) -> Result<(Axis, Axis)> {

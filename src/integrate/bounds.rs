@@ -5,6 +5,7 @@
 //! A new distribution needs an arm of [`columns`] and the constants that it names: [`NONE`] for
 //! rules that it is not to use.
 
+use crate::brdf::interface::{Interface, TransmissionMasking};
 use crate::brdf::{Masking, Microfacet, Ndf};
 
 /// Below this α (roughness 0.07) Charlie's ring lies so near the horizon that the reference keeps
@@ -88,6 +89,16 @@ pub struct Columns {
     pub s640: Bound,
     /// Interpolated.
     pub s2304: Bound,
+    /// Glass.
+    pub g140: Bound,
+    /// Glass.
+    pub g640: Bound,
+    /// Glass.
+    pub g1152: Bound,
+    /// Glass.
+    pub g1792: Bound,
+    /// Glass.
+    pub g3840: Bound,
 }
 
 /// The bounds for a lobe at an α; for Charlie they are wider below [`CHARLIE_LIMIT`].
@@ -208,4 +219,63 @@ const SMOOTH: Columns = Columns {
     l4608: NONE,
     s640: NONE,
     s2304: NONE,
+    g140: NONE,
+    g640: NONE,
+    g1152: NONE,
+    g1792: NONE,
+    g3840: NONE,
 };
+
+/// The bounds for a rough interface.
+pub const fn glass_columns(interface: Interface) -> &'static Columns {
+    match (interface.transmission(), interface.lobe().ndf) {
+        (TransmissionMasking::Beta, _) => &GLASS_BETA,
+        (_, Ndf::Beckmann) => &GLASS_BECKMANN,
+        _ => &GLASS,
+    }
+}
+
+const GLASS: Columns = Columns {
+    g140: all(2e-3),
+    g640: all(1.2e-5),
+    g1152: sharp(1.5e-6, 6e-4, 2e-11),
+    g1792: all(6e-7),
+    g3840: sharp(1.2e-8, 1e-4, 1e-12),
+    reference: all(3e-12),
+    ..WITHOUT_GLASS
+};
+
+/// Gaussian tails end within a piece, which few nodes do not follow.
+const GLASS_BECKMANN: Columns = Columns {
+    g140: all(8e-3),
+    g640: all(5e-4),
+    g1152: all(1e-4),
+    g1792: all(1e-6),
+    g3840: all(1e-7),
+    reference: all(3e-12),
+    ..WITHOUT_GLASS
+};
+
+/// The beta function falls like a power of n·l that is no whole number, which no rule resolves.
+const GLASS_BETA: Columns = Columns {
+    g140: all(2e-2),
+    g640: all(5e-4),
+    g1152: all(1e-4),
+    g1792: all(4e-5),
+    g3840: all(8e-6),
+    reference: all(3e-12),
+    ..WITHOUT_GLASS
+};
+
+/// What the layer of an index of refraction near 1 adds for a rough interface.
+pub const GLASS_LAYER: Columns = Columns {
+    g140: all(1e-3),
+    g640: all(3e-5),
+    g1152: all(1e-5),
+    g1792: all(3e-6),
+    g3840: all(6e-7),
+    reference: all(1e-12),
+    ..WITHOUT_GLASS
+};
+
+const WITHOUT_GLASS: Columns = Columns { d6144: NONE, d10240: NONE, ..SMOOTH };

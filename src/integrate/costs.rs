@@ -32,6 +32,9 @@ const LIGHT_DIRECTIONS: f64 = 2.0;
 /// Nanoseconds for a term of a polynomial in n·v.
 const POLYNOMIAL_TERM: f64 = 0.5;
 
+/// Nanoseconds for an evaluation of glass.
+const GLASS: f64 = 4.0;
+
 /// Nanoseconds for a diffuse lobe's closed form.
 const CLOSED_FORM: f64 = 50.0;
 
@@ -44,29 +47,34 @@ impl Rule {
             Method::LightDirections(rule) => texels * rule.evaluations(),
             Method::DoubleExponential(rule) => texels * rule.evaluations(),
             Method::Interpolant(rule) => rule.len() * rule.source.evaluations(),
+            Method::Glass(rule) => texels * rule.evaluations(),
             Method::ClosedForm => texels,
         }
     }
 
     /// The approximate time that a table of `texels` takes on one thread.
     pub fn seconds(&self, integrand: impl Into<Integrand>, texels: usize) -> f64 {
-        let Integrand::Specular(lobe, _) = integrand.into() else {
-            return 1e-9 * CLOSED_FORM * texels as f64;
+        let lobe = match integrand.into() {
+            Integrand::Specular(lobe, _) => lobe,
+            Integrand::Diffuse(_) => return 1e-9 * CLOSED_FORM * texels as f64,
+            Integrand::Glass(_) => return 1e-9 * GLASS * self.evaluations(texels) as f64,
         };
         let costs = costs(lobe.ndf);
         let evaluation = match self.method {
             Method::HalfVectors(_) if has_smith(lobe) => costs.half_vectors,
             Method::HalfVectors(_) => costs.half_vectors_without_smith,
             Method::DoubleExponential(_) => costs.double_exponential,
-            Method::LightDirections(_) | Method::Interpolant(_) | Method::ClosedForm => {
-                LIGHT_DIRECTIONS
-            }
+            Method::LightDirections(_)
+            | Method::Interpolant(_)
+            | Method::Glass(_)
+            | Method::ClosedForm => LIGHT_DIRECTIONS,
         };
         let polynomials = match self.method {
             Method::Interpolant(rule) => POLYNOMIAL_TERM * (rule.directions * texels) as f64,
             Method::HalfVectors(_)
             | Method::LightDirections(_)
             | Method::DoubleExponential(_)
+            | Method::Glass(_)
             | Method::ClosedForm => 0.0,
         };
         1e-9 * (evaluation * self.evaluations(texels) as f64 + polynomials)

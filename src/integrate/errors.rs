@@ -1,7 +1,7 @@
 //! The bounds of a rule's errors at a point: those of [`super::bounds`], and those of f32 on a
 //! device.
 
-use super::bounds::{Bound, LAYER, all, columns};
+use super::bounds::{Bound, GLASS_LAYER, LAYER, all, columns, glass_columns};
 use super::rule::{Method, Rule};
 use super::{Integrand, scale};
 use crate::brdf::fresnel::MOST_WEIGHTS;
@@ -27,6 +27,8 @@ pub struct RowErrors {
     factors: [f64; MOST_WEIGHTS],
     /// What the rounding of v·h adds to each.
     added: [f64; MOST_WEIGHTS],
+    /// Whether the first integral, too, vanishes somewhere: both of glass do.
+    all_vanish: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -101,7 +103,11 @@ impl Rule {
     pub(super) fn bounds_at(&self, integrand: Integrand, alpha: f64) -> Bound {
         match (integrand, self.promised) {
             (_, Some(promised)) => Bound { all: promised, relative: 0.0, absolute: promised },
-            (Integrand::Specular(..), _) if alpha == 0.0 => all(MIRROR),
+            (Integrand::Specular(..) | Integrand::Glass(_), _) if alpha == 0.0 => all(MIRROR),
+            (Integrand::Glass(interface), _) => {
+                let bound = (self.column)(glass_columns(interface));
+                if interface.has_layer() { bound.plus((self.column)(&GLASS_LAYER)) } else { bound }
+            }
             (Integrand::Specular(lobe, fresnel), _) => {
                 let bound = (self.column)(columns(lobe, alpha)).times(fresnel.error_factor());
                 if fresnel.has_layer() { bound.plus((self.column)(&LAYER)) } else { bound }
@@ -130,7 +136,8 @@ impl Errors {
         let sharp = || !rounds && self.rule.bound(self.integrand) <= SHARP_ON_DEVICE;
         let device = self.device.map(|f32| Device { f32, sharp: sharp() });
         let bound = self.rule.bounds_at(self.integrand, alpha);
-        RowErrors { bound, device, factors: self.factors, added: self.added }
+        let all_vanish = matches!(self.integrand, Integrand::Glass(_));
+        RowErrors { bound, device, factors: self.factors, added: self.added, all_vanish }
     }
 
     /// The bounds of the errors of these integrals at one α.
@@ -147,7 +154,7 @@ impl RowErrors {
         let mut errors = [0.0; MOST_WEIGHTS];
         for (k, (error, integral)) in errors.iter_mut().zip(integrals).enumerate() {
             *error = match k {
-                0 => self.of_first(scale),
+                0 if !self.all_vanish => self.of_first(scale),
                 _ => {
                     self.of_vanishing(self.factors[k], integral.abs(), scale)
                         + self.added[k] * scale

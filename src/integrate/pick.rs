@@ -3,7 +3,7 @@
 use super::Integrand;
 use super::errors::f32_arithmetic;
 use super::rule::{Method, Rule};
-use super::rules::{FINER_REFERENCE, REFERENCE, RULES};
+use super::rules::{FINER_REFERENCE, G640, REFERENCE, RULES};
 use crate::error::{Error, Result};
 
 impl Rule {
@@ -42,6 +42,10 @@ impl Rule {
         // value in 25 undecided. Without a relative bound nearly every small value would be.
         const RELATIVE: f64 = 1e-5;
         let integrand = integrand.into();
+        if let Integrand::Glass(_) = integrand {
+            // Its integrals are seldom small, and no rule has a relative bound.
+            return Some(G640);
+        }
         let serves = |rule: &Rule| {
             // At α = 1, above the limit below which Charlie's bounds are wider.
             rule.method == Method::ClosedForm || rule.bounds_at(integrand, 1.0).relative < RELATIVE
@@ -61,11 +65,14 @@ impl Rule {
     }
 
     /// The smallest bound among the rules for devices, in exact arithmetic; 0 of closed forms,
-    /// which need no rule.
+    /// which need no rule, and of what no device integrates that of all rules.
     pub fn sharpest_device_bound(integrand: impl Into<Integrand>) -> f64 {
         let integrand = integrand.into();
-        if let Integrand::Diffuse(_) = integrand {
-            return 0.0;
+        match integrand {
+            Integrand::Specular(..) => (),
+            Integrand::Diffuse(_) => return 0.0,
+            // No device runs a rule for it.
+            Integrand::Glass(_) => return Rule::sharpest_bound(integrand),
         }
         let bounds =
             RULES.iter().filter(|rule| rule.runs_on_device()).map(|rule| rule.bound(integrand));

@@ -5,9 +5,11 @@ pub use super::bounds::{CHARLIE_LIMIT, MARGIN};
 use super::Integrand;
 use super::bounds::{Bound, Columns};
 use super::double_exponential::DoubleExponentialRule;
+use super::glass::GlassRule;
 use super::half_vectors::HalfVectorRule;
 use super::interpolant::InterpolantRule;
 use super::light_directions::LightDirectionRule;
+use super::rules::REFERENCE;
 use crate::brdf::{Fresnel, Masking, Microfacet, Ndf};
 
 /// The method of a rule.
@@ -21,6 +23,8 @@ pub enum Method {
     DoubleExponential(DoubleExponentialRule),
     /// Interpolated between integrals: GGX with three masking terms, CPU.
     Interpolant(InterpolantRule),
+    /// Over half vectors with pieces at the critical angle: glass, CPU.
+    Glass(GlassRule),
     /// No quadrature: diffuse lobes.
     ClosedForm,
 }
@@ -50,11 +54,20 @@ impl Rule {
         matches!(self.method, Method::HalfVectors(_))
     }
 
+    /// Whether it is the reference, or what that is measured against.
+    pub fn is_reference(&self) -> bool {
+        self.name == REFERENCE.name
+    }
+
     /// Whether it serves for an integrand: a list of what each method was made and measured for.
     pub fn applies_to(&self, integrand: impl Into<Integrand>) -> bool {
         match (self.method, integrand.into()) {
             (Method::ClosedForm, Integrand::Diffuse(_)) => true,
-            (Method::ClosedForm, _) | (_, Integrand::Diffuse(_)) => false,
+            (Method::Glass(_), Integrand::Glass(_)) => true,
+            // In polar coordinates about v.
+            (Method::DoubleExponential(_), Integrand::Glass(_)) => self.is_reference(),
+            (Method::ClosedForm | Method::Glass(_), _)
+            | (_, Integrand::Diffuse(_) | Integrand::Glass(_)) => false,
             (Method::LightDirections(_), Integrand::Specular(lobe, fresnel)) => {
                 light_directions_serve(lobe) && has_smooth_complement(fresnel)
             }

@@ -3,6 +3,7 @@
 
 use super::bounds::{Bound, Columns, NONE};
 use super::double_exponential::DoubleExponentialRule;
+use super::glass::{Counts, GlassRule};
 use super::half_vectors::HalfVectorRule;
 use super::interpolant::InterpolantRule;
 use super::light_directions::LightDirectionRule;
@@ -34,10 +35,68 @@ pub const D6144: Rule = double_exponential("d6144", [64, 48], |bounds| bounds.d6
 /// Double exponential: the last stage of certification before the reference.
 pub const D10240: Rule = double_exponential("d10240", [80, 64], |bounds| bounds.d10240);
 /// The rule that tables are measured against.
-pub const REFERENCE: Rule = double_exponential("reference", [160, 150], |bounds| bounds.reference);
+pub const REFERENCE: Rule =
+    rule("reference", Method::DoubleExponential(REFERENCE_NODES), |bounds| bounds.reference);
+/// The nodes of [`REFERENCE`].
+pub const REFERENCE_NODES: DoubleExponentialRule = DoubleExponentialRule { outer: 160, inner: 150 };
 /// The rule that tables by [`REFERENCE`] itself are measured against.
 pub(super) const FINER_REFERENCE: Rule =
     double_exponential("reference", [240, 220], |bounds| bounds.reference);
+
+/// Glass, the cheapest.
+pub const G140: Rule = glass_rule(
+    "g140",
+    GlassRule {
+        outside: [Counts::few([7, 5, 1]); 2],
+        inside: [Counts::few([7, 5, 3]), Counts::few([7, 5, 1])],
+    },
+    |bounds| bounds.g140,
+);
+/// Glass.
+pub const G640: Rule = glass_rule(
+    "g640",
+    GlassRule {
+        outside: [Counts::crowded([16, 10, 1], Power::Two); 2],
+        inside: [Counts::crowded([14, 9, 7], Power::Two), Counts::crowded([14, 9, 1], Power::Two)],
+    },
+    |bounds| bounds.g640,
+);
+/// Glass.
+pub const G1152: Rule = glass_rule(
+    "g1152",
+    GlassRule {
+        outside: [Counts::crowded([24, 12, 1], Power::Two); 2],
+        inside: [
+            Counts::crowded([20, 14, 10], Power::Two),
+            Counts::crowded([16, 10, 1], Power::Two),
+        ],
+    },
+    |bounds| bounds.g1152,
+);
+/// Glass.
+pub const G1792: Rule = glass_rule(
+    "g1792",
+    GlassRule {
+        outside: [Counts::crowded([28, 16, 1], Power::Two); 2],
+        inside: [
+            Counts::crowded([28, 20, 14], Power::Two),
+            Counts::crowded([24, 14, 1], Power::Two),
+        ],
+    },
+    |bounds| bounds.g1792,
+);
+/// Glass: the last stage of certification before the reference.
+pub const G3840: Rule = glass_rule(
+    "g3840",
+    GlassRule {
+        outside: [Counts::crowded([40, 24, 1], Power::Four); 2],
+        inside: [
+            Counts::crowded([48, 32, 26], Power::Four),
+            Counts::crowded([40, 24, 1], Power::Four),
+        ],
+    },
+    |bounds| bounds.g3840,
+);
 
 /// Over directions of light, the cheapest.
 pub const L288: Rule = rule("l288", Method::LightDirections(L288_NODES), |bounds| bounds.l288);
@@ -53,7 +112,7 @@ pub const S2304: Rule =
     interpolant("s2304", [64, 36], Power::Four, L4608_NODES, |bounds| bounds.s2304);
 
 /// Every rule.
-pub const RULES: [Rule; 15] = [
+pub const RULES: [Rule; 20] = [
     CLOSED_FORM,
     H56,
     H130,
@@ -69,6 +128,11 @@ pub const RULES: [Rule; 15] = [
     L4608,
     S640,
     S2304,
+    G140,
+    G640,
+    G1152,
+    G1792,
+    G3840,
 ];
 
 /// The nodes of [`H288`].
@@ -87,6 +151,10 @@ type Column = fn(&Columns) -> Bound;
 
 const fn rule(name: &'static str, method: Method, column: Column) -> Rule {
     Rule { name, method, column, promised: None }
+}
+
+const fn glass_rule(name: &'static str, nodes: GlassRule, column: Column) -> Rule {
+    rule(name, Method::Glass(nodes), column)
 }
 
 const fn nodes(counts: [usize; 4], power: Power) -> HalfVectorRule {

@@ -195,9 +195,8 @@ impl<R: Real> View<R> {
     fn reflected(&self, place: Place<R>, nodes: &ViewPolarNodes) -> R {
         let (s, c) = (-place.sine_to(self.at.first), place.sine_to(self.at.grazing));
         let (_, f) = self.fresnel(place, c, s);
-        // cos(θ_v + 2θ) and cos(2θ - θ_v)
-        let (low, high) = (place.double_sine_to(self.at.full), place.double_sine_to(self.at.cut));
         let swing = self.sv * s * c * 4.0;
+        let (low, high) = place.to_horizon(self.at, swing);
         let visible = |x: R| {
             let x = x.max(R::from(0.0)).min(R::from(1.0));
             self.lobe.cosine_visibility_at(x, self.mu, self.area_v, self.alpha)
@@ -275,7 +274,7 @@ impl<R: Real> View<R> {
         let density = |z2: R| {
             // sin²(θ_h/2)
             let half = plane + across * z2 / (z2 + 1.0);
-            let ch = (half * 2.0).complement().max(R::from(1e-70));
+            let ch = (half * 2.0).complement().max(R::from(1e-35));
             let t = half * half.complement() * 4.0 / (ch * ch);
             self.lobe.ndf.slope_density(t / w2, self.alpha) / (w2 * ch * ch * ch * ch)
         };

@@ -20,6 +20,7 @@ fn parameter(axis: &Axis, words: &Words) -> String {
         Parameter::Roughness => "roughness".into(),
         Parameter::Alpha => "roughness * roughness".into(),
         Parameter::F0 => "f0".into(),
+        Parameter::Ior => "ior".into(),
         Parameter::Control => "control".into(),
         Parameter::Exponent => {
             // n = 2/α² - 2 and α² = roughness⁴, of which a mirror's n has no end.

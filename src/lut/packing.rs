@@ -233,6 +233,10 @@ impl Packing {
                     format!("{}, of {} with {}", channel.meaning, lobe.ndf, lobe.masking),
                 )
             }
+            (Integrand::Glass(interface), _) => Channel::new(
+                format!("{}_{}", channel.name, interface.side()),
+                format!("{}, seen from {}", channel.meaning, interface.side()),
+            ),
             (Integrand::Diffuse(diffuse), _) => Channel::new(
                 format!("{}_{diffuse}", channel.name),
                 format!("{}, {}", channel.meaning, diffuse.source()),

@@ -32,6 +32,8 @@ pub enum Parameter {
     Exponent,
     /// Reflectance at normal incidence, from slice to slice.
     F0,
+    /// Index of refraction, from slice to slice.
+    Ior,
     /// The place of a control point among those of a fitted net: no bake has it.
     Control,
 }
@@ -42,6 +44,7 @@ choice!(Parameter, "axis", {
     Alpha = "alpha", "the width of the distribution of normals";
     Exponent = "exponent", "n = 10^(7p), Blinn-Phong's";
     F0 = "f0", "reflectance at normal incidence, from slice to slice";
+    Ior = "ior", "index of refraction, from slice to slice";
     Control = "control", "control points of a fitted net";
 });
 
@@ -125,6 +128,10 @@ impl Axis {
                 "give a size in that range",
             ));
         }
+        if spec.parameter == Parameter::Ior {
+            let (expected, got) = ("a list of indices of refraction", format!("'{spec}'"));
+            return Err(Error::bad_input("axis", expected, got, "as in --ior 1.33,1.5"));
+        }
         let offset = match spec.nodes {
             Nodes::Edges => 0.0,
             Nodes::Offset(offset) => offset,
@@ -143,7 +150,7 @@ impl Axis {
                 Parameter::Roughness => PerceptualRoughness::of_texel(value).map(drop),
                 Parameter::Alpha => Alpha::of_texel(value).map(drop),
                 // The same range: p in [0, 1] is every exponent from 1 to 1e7.
-                Parameter::Exponent | Parameter::F0 | Parameter::Control => {
+                Parameter::Exponent | Parameter::F0 | Parameter::Control | Parameter::Ior => {
                     F0::new(value).map(drop)
                 }
             };

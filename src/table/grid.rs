@@ -74,7 +74,7 @@ fn alphas(axis: &Axis) -> Option<Result<Vec<f64>>> {
         Parameter::Roughness => |p| PerceptualRoughness::of_texel(p).map(|r| Alpha::from(r).get()),
         Parameter::Exponent => |p| Ok(alpha_of_exponent(libm::exp10(7.0 * p))),
         Parameter::Alpha => Ok,
-        Parameter::Nov | Parameter::F0 | Parameter::Control => return None,
+        Parameter::Nov | Parameter::F0 | Parameter::Ior | Parameter::Control => return None,
     };
     Some(axis.values().into_iter().map(alpha).collect())
 }

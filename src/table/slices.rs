@@ -4,7 +4,7 @@
 use super::axis::{Axis, AxisSpec, Parameter};
 use crate::choice::{Choice, choice};
 use crate::error::{Error, Result};
-use crate::units::{F0, short};
+use crate::units::{F0, Ior, short};
 use std::fmt;
 
 /// The largest number of slices.
@@ -69,10 +69,18 @@ impl Slices {
 
     /// Slices at these F0, at least two: a table for one has no slices.
     pub fn at_f0s(values: &[F0]) -> Result<Self> {
-        let values: Vec<f64> = values.iter().map(|f0| f0.get()).collect();
-        check_several("values of F0", values.len())?;
-        check("f0", &values.iter().map(|&v| short(v)).collect::<Vec<_>>())?;
-        Ok(Slices { of: Of::Parameter(Parameter::F0, values), axis: None })
+        Slices::at(Parameter::F0, values.iter().map(|f0| f0.get()).collect())
+    }
+
+    /// Slices at these indices of refraction, at least two.
+    pub fn at_iors(values: &[Ior]) -> Result<Self> {
+        Slices::at(Parameter::Ior, values.iter().map(|ior| ior.get()).collect())
+    }
+
+    fn at(parameter: Parameter, values: Vec<f64>) -> Result<Self> {
+        check_several(&format!("values of {parameter}"), values.len())?;
+        check(parameter.word(), &values.iter().map(|&v| short(v)).collect::<Vec<_>>())?;
+        Ok(Slices { of: Of::Parameter(parameter, values), axis: None })
     }
 
     /// Slices of these models, at least two, by their words; `what`: the flag that names them.

@@ -99,7 +99,7 @@ impl Integrator {
             Method::LightDirections(rule) => Nodes::LightDirections(rule.nodes()),
             Method::DoubleExponential(rule) => Nodes::DoubleExponential(rule.nodes()),
             Method::Interpolant(rule) => Nodes::LightDirections(rule.source.nodes()),
-            Method::ClosedForm => Nodes::None,
+            Method::Glass(_) | Method::ClosedForm => Nodes::None,
         };
         Integrator { rule, nodes }
     }

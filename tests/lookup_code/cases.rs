@@ -142,7 +142,7 @@ impl Case {
                 let n = 2.0 / roughness.powi(4).max(1e-7) - 2.0;
                 libm::log10(n.max(1.0)) / 7.0
             }
-            Parameter::F0 | Parameter::Control => f0,
+            Parameter::F0 | Parameter::Ior | Parameter::Control => f0,
         };
         let Layout { x, y, .. } = &self.layout;
         let place = bilinear(x, y, parameter(x), parameter(y));

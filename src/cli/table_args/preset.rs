@@ -54,6 +54,8 @@ impl TableArgs {
             channels: given.channels.or(base.channels),
             f0: given.f0.or(base.f0),
             ior: given.ior.or(base.ior),
+            side: given.side.or(base.side),
+            transmission_masking: given.transmission_masking.or(base.transmission_masking),
             size: given.size.or(base.size),
             x: given.x.or(base.x),
             y: given.y.or(base.y),

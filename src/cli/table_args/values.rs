@@ -51,8 +51,8 @@ impl Size {
 }
 
 impl Numbers {
-    /// The numbers.
-    pub fn parse(&self) -> Result<Vec<f64>> {
+    /// The numbers of a flag.
+    pub fn parse(&self, flag: &str) -> Result<Vec<f64>> {
         let numbers = match self {
             Numbers::One(number) => vec![*number],
             Numbers::List(numbers) => numbers.clone(),
@@ -69,7 +69,7 @@ impl Numbers {
             Numbers::One(_) | Numbers::List(_) => "none".to_owned(),
         };
         let expected = "numbers with commas between";
-        Err(Error::bad_input("f0", expected, got, "as in 0.02,0.04,0.08"))
+        Err(Error::bad_input(flag, expected, got, "as in 0.02,0.04,0.08"))
     }
 }
 

@@ -50,12 +50,23 @@ impl<R: Real> Place<R> {
         q * 2.0 / (q * q + 1.0)
     }
 
-    /// sin 2(θ_j - θ)
+    /// cos(θ_v + 2θ) and cos(2θ - θ_v), whose difference is `swing` = 2 sv sin 2θ.
+    ///
+    /// They are sin 2(θ_1 - θ) and sin 2(θ_2 - θ), which cancel where the angle is near a right
+    /// one; there the other is far from it.
     #[inline(always)]
-    pub(super) fn double_sine_to(self, p_j: R) -> R {
-        let q = self.half_tangent_to(p_j);
-        let q2 = q * q;
-        q * 4.0 * q2.complement() / ((q2 + 1.0) * (q2 + 1.0))
+    pub(super) fn to_horizon(self, at: Landmarks<R>, swing: R) -> (R, R) {
+        let double_sine = |q: R| {
+            let q2 = q * q;
+            q * 4.0 * q2.complement() / ((q2 + 1.0) * (q2 + 1.0))
+        };
+        let (first, second) = (self.half_tangent_to(at.full), self.half_tangent_to(at.cut));
+        let (low, high) = (double_sine(first), double_sine(second));
+        let half = R::from(0.5);
+        (
+            first.abs().select_below(half, low, high - swing),
+            second.abs().select_below(half, high, low + swing),
+        )
     }
 }
 

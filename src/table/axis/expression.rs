@@ -27,6 +27,7 @@ impl Axis {
             | Parameter::Roughness
             | Parameter::Alpha
             | Parameter::F0
+            | Parameter::Ior
             | Parameter::Control => p.to_owned(),
         };
         let zero = (words.number)(0.0);

@@ -1,0 +1,100 @@
+//! Numbers of nodes of the rules for glass, and the nodes.
+
+use crate::brdf::interface::Side;
+use crate::numeric::quadrature::gauss_legendre::{Node, gauss_legendre, half_gauss};
+use crate::numeric::quadrature::slope_map::Power;
+
+/// Numbers of nodes for one of the two integrals from one side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Counts {
+    /// Slopes for each piece.
+    pub slopes: usize,
+    /// Azimuths where light is partly reflected.
+    pub azimuths: usize,
+    /// Azimuths where it is reflected whole.
+    pub total: usize,
+    /// The slope map.
+    pub power: Power,
+    /// Whether slopes crowd at both ends of a piece, where derivatives do not exist.
+    pub crowded: bool,
+}
+
+/// Numbers of nodes for reflection and transmission, from outside and from inside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GlassRule {
+    /// Reflection and transmission from the thinner side.
+    pub outside: [Counts; 2],
+    /// The same from the denser side.
+    pub inside: [Counts; 2],
+}
+
+/// The nodes for one of the two integrals.
+#[derive(Clone, Debug)]
+pub struct ExitNodes {
+    /// Slopes of a piece.
+    pub(super) slopes: Vec<Node>,
+    /// Azimuths of an interval that is symmetric about its start.
+    pub(super) even: Vec<Node>,
+    /// Of one with a root at its end.
+    pub(super) root: Vec<Node>,
+    /// Of light that is reflected whole, symmetric about the start or not.
+    pub(super) total_even: Vec<Node>,
+    pub(super) total: Vec<Node>,
+    pub(super) power: Power,
+}
+
+/// The nodes for both.
+#[derive(Clone, Debug)]
+pub struct GlassNodes {
+    pub(super) reflected: ExitNodes,
+    pub(super) transmitted: ExitNodes,
+}
+
+impl Counts {
+    /// A rule of few nodes.
+    pub const fn few([slopes, azimuths, total]: [usize; 3]) -> Self {
+        Counts { slopes, azimuths, total, power: Power::Two, crowded: false }
+    }
+
+    /// A rule whose slopes crowd.
+    pub const fn crowded([slopes, azimuths, total]: [usize; 3], power: Power) -> Self {
+        Counts { slopes, azimuths, total, power, crowded: true }
+    }
+
+    fn nodes(self) -> ExitNodes {
+        let crowd = |Node { at, weight }: Node| Node {
+            at: at * at * (3.0 - 2.0 * at),
+            weight: weight * 6.0 * at * (1.0 - at),
+        };
+        let slopes = gauss_legendre(self.slopes).into_iter();
+        let root = |Node { at, weight }: Node| Node {
+            at: 1.0 - (1.0 - at) * (1.0 - at),
+            weight: weight * 2.0 * (1.0 - at),
+        };
+        ExitNodes {
+            slopes: if self.crowded { slopes.map(crowd).collect() } else { slopes.collect() },
+            even: half_gauss(self.azimuths),
+            root: gauss_legendre(self.azimuths).into_iter().map(root).collect(),
+            total_even: half_gauss(self.total),
+            total: gauss_legendre(self.total),
+            power: self.power,
+        }
+    }
+}
+
+impl GlassRule {
+    /// Evaluations of the integrands for a texel seen from outside, where the pieces are two each.
+    pub const fn evaluations(&self) -> usize {
+        let [reflected, transmitted] = self.outside;
+        2 * (reflected.slopes * reflected.azimuths + transmitted.slopes * transmitted.azimuths)
+    }
+
+    /// The nodes for a side.
+    pub fn nodes(&self, side: Side) -> GlassNodes {
+        let [reflected, transmitted] = match side {
+            Side::Outside => self.outside,
+            Side::Inside => self.inside,
+        };
+        GlassNodes { reflected: reflected.nodes(), transmitted: transmitted.nodes() }
+    }
+}
