@@ -135,7 +135,7 @@ fn a_mirrors_integrals_are_its_weights() {
 
 #[test]
 fn every_fresnel_model_is_certified_to_the_last_bit() {
-    let axis = |words: &str| Axis::new(words.parse().unwrap(), 48).unwrap();
+    let axis = |words: &str, size| Axis::new(words.parse().unwrap(), size).unwrap();
     let charlie = Microfacet { ndf: Ndf::Charlie, masking: Masking::Neubelt };
     let beckmann = Microfacet { ndf: Ndf::Beckmann, masking: Masking::HeightCorrelated };
     let lobes = [ggx(Masking::HeightCorrelated), ggx(Masking::Implicit), beckmann, charlie];
@@ -155,13 +155,15 @@ fn every_fresnel_model_is_certified_to_the_last_bit() {
     for (lobe, fresnel) in every {
         let least = if lobe == charlie { "roughness,min=0.08" } else { "roughness,edges" };
         let lut = Lut::Dfg(Dfg::new(lobe, fresnel, DfgChannels::All).unwrap());
-        let (x, y) = (axis("nov,edges,min=1e-6"), axis(least));
+        // The others have no interpolant, and take longer.
+        let size = if matches!(fresnel, Fresnel::Schlick | Fresnel::SchlickF82) { 48 } else { 20 };
+        let (x, y) = (axis("nov,edges,min=1e-6", size), axis(least, size));
         let request = Request::new(lut, x, y, Accuracy::Rounded, Precision::F16).unwrap();
         let table = splitsum::bake(&request, &Backend::cpu()).unwrap().table;
         assert_eq!(table.claim(0).certificate().unwrap().undecided, 0, "{lobe:?} {fresnel}");
         let truth = cpu::bake(lut.integrand(), request.grid(), &REFERENCE, &|_| ());
         let rounded = truth.values().iter().map(|&value| Precision::F16.nearest(value));
-        let stored = (0..48 * 48).flat_map(|texel| table.texel(0, texel % 48, texel / 48));
+        let stored = (0..size * size).flat_map(|texel| table.texel(0, texel % size, texel / size));
         assert!(stored.eq(rounded), "{lobe:?} {fresnel}");
     }
 }

@@ -116,7 +116,7 @@ fn points(interface: Interface, count: usize, random: &mut Random) -> Vec<(f64, 
 fn every_rule_keeps_its_bounds_near_the_critical_angle_and_at_every_edge() {
     let mut random = Random(15);
     for interface in interfaces(48, &mut random) {
-        let points = points(interface, 48, &mut random);
+        let points = points(interface, 20, &mut random);
         let integrand = Integrand::Glass(interface);
         let truth = cpu::bake_points(integrand, &points, &REFERENCE);
         for rule in [G140, G640, G1152, G1792, G3840] {

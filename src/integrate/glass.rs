@@ -7,11 +7,11 @@
 //!
 //! E = ∫ y P(y) dy ∫ 4 (c/ch) w(c) (G₂/(4μ)) dφ, w = F for reflection and 1 - F for transmission.
 //!
-//! *Rings.* With C = cos(φ/2), every cosine on a ring is a + 2b C², and vanishes where C² = C_j²: n·l
-//! of reflection at C_m², c less the cosine of the critical angle at C_c², and c less the least that
-//! still transmits at C_l². In t = tan(φ/4), C - C_j = 2 (t_j² - t²)/((1+t²)(1+t_j²)), which does
-//! not cancel where t_j is an end of the interval. 1 - F falls like the root of that distance from
-//! the critical angle: t = t_j (1 - (1-v)²) makes it smooth.
+//! *Rings.* With C = cos(φ/2), every cosine on a ring is a + 2b C², and vanishes where C² = C_j²:
+//! n·l of reflection at C_m², c less the cosine of the critical angle at C_c², and c less the least
+//! that still transmits at C_l². In t = tan(φ/4), C - C_j = 2 (t_j² - t²)/((1+t²)(1+t_j²)), which
+//! does not cancel where t_j is an end of the interval. 1 - F falls like the root of that distance
+//! from the critical angle: t = t_j (1 - (1-v)²) makes it smooth.
 //!
 //! *Pieces* meet at the slopes tan θ_h where
 //!
