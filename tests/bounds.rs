@@ -83,8 +83,8 @@ fn a_bound_that_is_too_small_is_found_out() {
     assert!(check(&searched(SHORT, &[(schlick(lobe), nothing)])).is_err());
 }
 
-/// The share of its bound by which a rule errs at each of these (n·v, α), in the integral where that
-/// is largest; infinite for what is no number.
+/// The share of its bound by which a rule errs at each of these (n·v, α), in the integral where
+/// that is largest; infinite for what is no number.
 fn shares(specular: Specular, rule: &Rule, places: &[(f64, f64)]) -> Vec<f64> {
     let at = |rule: &Rule| cpu::bake_points(integrand(specular), places, rule);
     let (values, truth) = (at(rule), at(&rule.yardstick()));

@@ -1,5 +1,5 @@
-//! Rough interfaces of two dielectrics: reflection and transmission on either side, beside published
-//! figures, theorems and each other.
+//! Rough interfaces of two dielectrics: reflection and transmission on either side, beside
+//! published figures, theorems and each other.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;
@@ -165,7 +165,7 @@ fn limits_are_those_of_theory() {
         [values.values()[0], values.values()[1]]
     };
     for rule in [G1792, REFERENCE] {
-        // A mirror, and a surface so smooth that it is nearly one: 1 - F = T below total reflection.
+        // A mirror, and a surface so smooth that it is nearly one.
         for (side, mu, f) in [(Side::Outside, 1.0, 0.04), (Side::Inside, 0.5, 1.0)] {
             for alpha in [0.0, 1e-9] {
                 let [reflected, transmitted] = at(1.5, side, mu, alpha, rule);
