@@ -219,26 +219,36 @@ fn specular<const N: usize, B: Basis<N>>(lobe: Microfacet, basis: B, rule: &Rule
     }
 }
 
-impl<const N: usize, B: Basis<N>> Work for Quadrature<N, B> {
-    /// Takes as many points at a time as there are lanes; a group that is not full repeats its last
-    /// point.
-    fn integrate(&self, points: Points, integrals: &mut [f64]) {
-        let last = integrals.len() / N - 1;
-        for (group, integrals) in integrals.chunks_mut(LANES * N).enumerate() {
-            let points: [(f64, f64); LANES] =
-                from_fn(|i| points.get((group * LANES + i).min(last)));
-            debug_assert!(points.iter().all(|&(mu, alpha)| in_domain(mu, alpha)), "{points:?}");
-            // Any α will do in the lanes of mirrors.
-            let alphas = points.map(|(_, alpha)| if alpha == 0.0 { 1.0 } else { alpha });
-            let (mu, alpha) = (F64x8(points.map(|point| point.0)), F64x8(alphas));
-            scatter(&vectorised(Group { work: self, mu, alpha }), integrals);
-            for (integrals, (mu, alpha)) in integrals.chunks_exact_mut(N).zip(points) {
-                if alpha == 0.0 {
-                    let mirror = mirror(self.lobe, self.basis, mu);
-                    integrals.copy_from_slice(&mirror.map(|integral| integral.value));
-                }
-            }
+/// Integrates at as many points at a time as there are lanes; a group that is not full repeats its
+/// last point. `exact` puts in its place what is known to its last digits at a point.
+fn in_groups<const N: usize>(
+    points: Points,
+    integrals: &mut [f64],
+    lanes: impl Fn(F64x8, F64x8) -> Integrals<N, F64x8>,
+    exact: impl Fn((f64, f64), &mut [f64]),
+) {
+    let last = integrals.len() / N - 1;
+    for (group, integrals) in integrals.chunks_mut(LANES * N).enumerate() {
+        let points: [(f64, f64); LANES] = from_fn(|i| points.get((group * LANES + i).min(last)));
+        debug_assert!(points.iter().all(|&(mu, alpha)| in_domain(mu, alpha)), "{points:?}");
+        // Any α will do in the lanes of mirrors.
+        let alphas = points.map(|(_, alpha)| if alpha == 0.0 { 1.0 } else { alpha });
+        scatter(&lanes(F64x8(points.map(|point| point.0)), F64x8(alphas)), integrals);
+        for (integrals, point) in integrals.chunks_exact_mut(N).zip(points) {
+            exact(point, integrals);
         }
+    }
+}
+
+impl<const N: usize, B: Basis<N>> Work for Quadrature<N, B> {
+    fn integrate(&self, points: Points, integrals: &mut [f64]) {
+        let lanes = |mu, alpha| vectorised(Group { work: self, mu, alpha });
+        in_groups(points, integrals, lanes, |(mu, alpha), integrals| {
+            if alpha == 0.0 {
+                let mirror = mirror(self.lobe, self.basis, mu);
+                integrals.copy_from_slice(&mirror.map(|integral| integral.value));
+            }
+        });
     }
 
     fn shares_rows(&self) -> bool {

@@ -14,7 +14,7 @@ mod schlick_f82;
 mod schlick_power;
 
 pub use conductor::{Conductor, conductor_reflectance};
-pub use dielectric::{Dielectric, SMALLEST_ROOT, dielectric_reflectance};
+pub use dielectric::{Dielectric, SMALLEST_ROOT, dielectric_reflectance, reflectance_from};
 pub use schlick::{Schlick, average_schlick, schlick_complement, schlick_weight, schlick_weights};
 pub use schlick_f82::{SchlickF82, schlick_f82_weights};
 pub use schlick_power::{SchlickPower, schlick_power_weights};

@@ -7,6 +7,7 @@
 //!
 //! E = ∫ D(h) (c/μ) F G₂(μ, x) dω_h for reflection, with 1 - F for F for transmission.
 
+use super::fresnel::{Basis, Dielectric};
 use super::masking::{height_correlated, separable};
 use super::{Masking, Microfacet, Ndf};
 use crate::choice::{Choice, choice, words};
@@ -14,7 +15,6 @@ use crate::error::{Error, Result};
 use crate::numeric::ball::Ball;
 use crate::numeric::lanes::Real;
 use crate::numeric::special::log_beta;
-use crate::units::short;
 
 /// The side of an interface from which it is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,13 +52,10 @@ choice!(TransmissionMasking, "transmission-masking", {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interface {
     lobe: Microfacet,
-    ior: f64,
+    medium: Dielectric,
     side: Side,
     transmission: TransmissionMasking,
 }
-
-/// The indices of refraction for which the rules' bounds were searched.
-const INDICES: std::ops::RangeInclusive<f64> = 1.0..=4.0;
 
 /// The distributions with a Smith term of their own that is smooth.
 const DISTRIBUTIONS: [Ndf; 2] = [Ndf::Ggx, Ndf::Beckmann];
@@ -83,11 +80,7 @@ impl Interface {
             let (expected, got) = (words(&MASKINGS), lobe.masking.word());
             return Err(Error::bad_input("masking of glass", expected, got, cure));
         }
-        if !INDICES.contains(&ior) {
-            let cure = "give an index in that range";
-            return Err(Error::bad_input("index of refraction", "1 to 4", short(ior), cure));
-        }
-        Ok(Interface { lobe, ior, side, transmission })
+        Ok(Interface { lobe, medium: Dielectric::new(ior)?, side, transmission })
     }
 
     /// The same interface seen from this side.
@@ -107,7 +100,7 @@ impl Interface {
 
     /// n of the medium.
     pub const fn ior(self) -> f64 {
-        self.ior
+        self.medium.ior()
     }
 
     /// The side of v.
@@ -123,17 +116,17 @@ impl Interface {
     /// η, the index on the other side over that on the side of v.
     pub fn eta(self) -> f64 {
         match self.side {
-            Side::Outside => self.ior,
-            Side::Inside => 1.0 / self.ior,
+            Side::Outside => self.ior(),
+            Side::Inside => 1.0 / self.ior(),
         }
     }
 
     /// k = η² - 1.
     pub fn k(self) -> f64 {
-        let k = (self.ior - 1.0) * (self.ior + 1.0);
+        let k = self.medium.k();
         match self.side {
             Side::Outside => k,
-            Side::Inside => -k / (self.ior * self.ior),
+            Side::Inside => -k / (self.ior() * self.ior()),
         }
     }
 
@@ -153,7 +146,7 @@ impl Interface {
             let [reflected, transmitted] = self.of_mirror(mu);
             return [Some(reflected), Some(transmitted)];
         }
-        if self.ior == 1.0 {
+        if self.ior() == 1.0 {
             return [Some(zero), self.straight(mu, alpha)];
         }
         match self.side {
@@ -165,10 +158,10 @@ impl Interface {
     /// F and 1 - F at n·v = `mu`.
     fn of_mirror(self, mu: f64) -> [Ball; 2] {
         let (zero, one) = (Ball::exact(0.0), Ball::exact(1.0));
-        if self.ior == 1.0 {
+        if self.ior() == 1.0 {
             return [zero, one];
         }
-        let (n, c) = (Ball::exact(self.ior), Ball::exact(mu));
+        let (n, c) = (Ball::exact(self.ior()), Ball::exact(mu));
         let n2 = n * n;
         let (k, eta2) = match self.side {
             Side::Outside => (n2 - one, n2),
@@ -213,7 +206,7 @@ impl Interface {
 
     /// Whether F changes faster at grazing incidence than rules resolve.
     pub fn has_layer(self) -> bool {
-        self.ior < 1.01
+        self.medium.has_layer()
     }
 
     /// G₂(μ, x)/(4μ) of transmitted light at x = -n·l, with the projected area of n·v given.

@@ -2,6 +2,7 @@
 
 use super::decision::{Averages, Task};
 use crate::brdf::fresnel::{MOST_WEIGHTS, with_basis};
+use crate::brdf::interface::Interface;
 use crate::brdf::{Fresnel, Microfacet};
 use crate::integrate::errors::{Errors, RowErrors};
 use crate::integrate::{Integrand, mirror};
@@ -41,11 +42,18 @@ pub(super) struct Decider<'a> {
     pub rounds_correctly: bool,
 }
 
+/// Whose integrals are known to the last digits.
+#[derive(Clone, Copy)]
+enum Known {
+    /// A row of mirrors.
+    Mirrors(Microfacet, Fresnel),
+    /// Some points of an interface at this α.
+    Points(Interface, f64),
+}
+
 /// The bounds of a row.
 struct Row<'a> {
-    /// The lobe of a row of mirrors whose integrals are known to the last digits.
-    mirror: Option<(Microfacet, Fresnel)>,
-    alpha: f64,
+    known: Option<Known>,
     errors: RowErrors,
     margin: Option<RowErrors>,
     averages: &'a [Ball],
@@ -54,20 +62,15 @@ struct Row<'a> {
 impl Decider<'_> {
     fn row(&self, row: usize) -> Row<'_> {
         let alpha = self.task.grid.alphas[row];
-        let mirror = match self.task.lut.integrand() {
+        let known = match self.task.lut.integrand() {
             Integrand::Specular(lobe, fresnel) if self.exact_mirrors && alpha == 0.0 => {
-                Some((lobe, fresnel))
+                Some(Known::Mirrors(lobe, fresnel))
             }
-            Integrand::Specular(..) | Integrand::Glass(_) | Integrand::Diffuse(_) => None,
+            Integrand::Glass(interface) => Some(Known::Points(interface, alpha)),
+            Integrand::Specular(..) | Integrand::Diffuse(_) => None,
         };
         let margin = self.margin.map(|margin| margin.row(alpha));
-        Row {
-            mirror,
-            alpha,
-            errors: self.errors.row(alpha),
-            margin,
-            averages: self.averages.row(row),
-        }
+        Row { known, errors: self.errors.row(alpha), margin, averages: self.averages.row(row) }
     }
 
     /// Takes over a texel's values if this stage decides them, and the best guess if it does not.
@@ -128,11 +131,7 @@ impl Decider<'_> {
         open: &mut bool,
     ) -> Verdict {
         let mu = self.task.grid.mus[column];
-        let mut balls = balls(row, mu, integrals);
-        if let Integrand::Glass(interface) = self.task.lut.integrand() {
-            let exact = interface.exact(mu, row.alpha);
-            balls.iter_mut().zip(exact).for_each(|(ball, exact)| *ball = exact.unwrap_or(*ball));
-        }
+        let balls = balls(row, mu, integrals);
         let (same, error) = self.task.store(mu, &balls[..integrals.len()], row.averages, values);
         let decided = self.rounds_correctly && same;
         *open = !decided;
@@ -144,7 +143,7 @@ impl Decider<'_> {
 #[inline(always)]
 fn balls(row: &Row, mu: f64, integrals: &[f64]) -> [Ball; MOST_WEIGHTS] {
     let mut balls = [Ball::default(); MOST_WEIGHTS];
-    if let Some((lobe, fresnel)) = row.mirror {
+    if let Some(Known::Mirrors(lobe, fresnel)) = row.known {
         // Exact but for the arithmetic.
         with_basis!(fresnel, basis => {
             let integrals = mirror(lobe, basis, mu);
@@ -159,6 +158,10 @@ fn balls(row: &Row, mu: f64, integrals: &[f64]) -> [Ball; MOST_WEIGHTS] {
     };
     for (k, (ball, &value)) in balls.iter_mut().zip(integrals).enumerate() {
         *ball = Ball { value, error: errors[k] + MARGIN * margins[k] };
+    }
+    if let Some(Known::Points(interface, alpha)) = row.known {
+        let exact = interface.exact(mu, alpha);
+        balls.iter_mut().zip(exact).for_each(|(ball, exact)| *ball = exact.unwrap_or(*ball));
     }
     balls
 }

@@ -1,6 +1,6 @@
 //! Flags with a word for each choice: the parser, the help and the completions know all of them.
 
-use crate::brdf::fresnel::{Definition, KINDS};
+use crate::brdf::fresnel::KINDS;
 use crate::brdf::{Diffuse, Fresnel, Masking, Microfacet, Ndf};
 use crate::choice::Choice;
 use crate::error::Result;
@@ -22,22 +22,24 @@ pub fn model() -> impl TypedValueParser<Value = String> {
     PossibleValuesParser::new(Ndf::ALL.iter().map(value).chain(Diffuse::ALL.iter().map(value)))
 }
 
-/// The parser of channels: a name, or a list of terms; the names are those of each Fresnel model
-/// and those of energy.
+/// The parser of channels: a name, or a list of terms, which is checked where the lobe is known.
+/// The names are those of each Fresnel model, and those of energy and glass.
 pub fn channels() -> impl TypedValueParser<Value = String> {
-    Channels
+    Text { names: names_of_channels }
 }
 
-/// The parser of Fresnel models, one or several.
+/// The parser of Fresnel models, one or several; numbers follow the names.
 pub fn fresnel() -> impl TypedValueParser<Value = String> {
-    Models
+    Text { names: names_of_models }
 }
 
-/// Takes any text, since numbers follow the names, and knows the names.
+/// Takes any text, and knows names.
 #[derive(Clone)]
-struct Models;
+struct Text {
+    names: fn() -> Vec<PossibleValue>,
+}
 
-impl TypedValueParser for Models {
+impl TypedValueParser for Text {
     type Value = String;
 
     fn parse_ref(
@@ -50,30 +52,12 @@ impl TypedValueParser for Models {
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        let value = |kind: &Definition| PossibleValue::new(kind.usage).help(kind.about);
-        Some(Box::new(KINDS.iter().map(value).collect::<Vec<_>>().into_iter()))
+        Some(Box::new((self.names)().into_iter()))
     }
 }
 
-/// Takes any text, since a list of terms is checked where the lobe is known, and knows the names.
-#[derive(Clone)]
-struct Channels;
-
-impl TypedValueParser for Channels {
-    type Value = String;
-
-    fn parse_ref(
-        &self,
-        command: &clap::Command,
-        argument: Option<&clap::Arg>,
-        value: &OsStr,
-    ) -> std::result::Result<String, clap::Error> {
-        clap::builder::StringValueParser::new().parse_ref(command, argument, value)
-    }
-
-    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(names_of_channels().into_iter()))
-    }
+fn names_of_models() -> Vec<PossibleValue> {
+    KINDS.iter().map(|kind| PossibleValue::new(kind.usage).help(kind.about)).collect()
 }
 
 fn names_of_channels() -> Vec<PossibleValue> {

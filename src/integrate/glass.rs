@@ -30,7 +30,7 @@ use self::nodes::ExitNodes;
 use self::ring::{Azimuth, Ring, SMALLEST_SWING, Zero, beyond, either, interval};
 use super::Integrals;
 use super::half_vectors::{TAIL_DEPTH, radial_weight};
-use crate::brdf::fresnel::SMALLEST_ROOT;
+use crate::brdf::fresnel::{SMALLEST_ROOT, reflectance_from};
 use crate::brdf::interface::{Interface, Side};
 use crate::numeric::lanes::Real;
 use crate::numeric::quadrature::slope_map::{slope_at, slope_interval};
@@ -287,13 +287,9 @@ impl<R: Real> View<R> {
     /// F at c with g² = k + c².
     #[inline(always)]
     fn reflectance(&self, c: R, g2: R) -> R {
-        let (zero, one) = (R::from(0.0), R::from(1.0));
-        let g = g2.max(zero).sqrt();
-        let s2 = c.complement().max(zero) * (c + 1.0);
-        let sum = (g + c).max(R::from(SMALLEST_ROOT));
-        let a = self.k / (sum * sum * (c * g + s2));
-        let f = a * a * (c * c * g2 + s2 * s2);
-        zero.select_below(g2, f, self.k.select_below(zero, one, zero))
+        // On the last ring c may round beyond 1.
+        let s2 = c.complement().max(R::from(0.0)) * (c + 1.0);
+        reflectance_from(c, g2, s2, self.k)
     }
 
     /// 1 - F

@@ -9,7 +9,6 @@ use super::glass::GlassRule;
 use super::half_vectors::HalfVectorRule;
 use super::interpolant::InterpolantRule;
 use super::light_directions::LightDirectionRule;
-use super::rules::REFERENCE;
 use crate::brdf::{Fresnel, Masking, Microfacet, Ndf};
 
 /// The method of a rule.
@@ -52,11 +51,6 @@ impl Rule {
     /// Whether a device can run it.
     pub fn runs_on_device(&self) -> bool {
         matches!(self.method, Method::HalfVectors(_))
-    }
-
-    /// Whether it is the reference, or what that is measured against.
-    pub fn is_reference(&self) -> bool {
-        self.name == REFERENCE.name
     }
 
     /// Whether it serves for an integrand: a list of what each method was made and measured for.

@@ -27,6 +27,7 @@ mod places;
 use self::places::{Landmarks, Place};
 use super::Integrals;
 use super::double_exponential::DoubleExponentialRule;
+use crate::brdf::fresnel::reflectance_from;
 use crate::brdf::interface::{Interface, Side};
 use crate::brdf::{Microfacet, Ndf};
 use crate::integrate::half_vectors::TAIL_DEPTH;
@@ -171,30 +172,25 @@ impl<R: Real> View<R> {
         zero.select_below(length, sum, zero)
     }
 
-    /// g = √(k + c²), and F, at c = cos θ and s = sin θ.
+    /// g² = k + c² at c = cos θ and s = sin θ.
     #[inline(always)]
-    fn fresnel(&self, place: Place<R>, c: R, s: R) -> (R, R) {
-        let (zero, one, k) = (R::from(0.0), R::from(1.0), R::from(self.interface.k()));
-        let g2 = match self.interface.side() {
-            Side::Outside => k + c * c,
+    fn root2(&self, place: Place<R>, c: R, s: R) -> R {
+        match self.interface.side() {
+            Side::Outside => R::from(self.interface.k()) + c * c,
             Side::Inside => {
                 // cos θ - cos θ_c = 2 sin(d/2) sin(θ + d/2), d = θ_c - θ.
                 let q = place.half_tangent_to(self.at.critical);
                 let difference = q * 2.0 * (s + c * q) / (q * q + 1.0);
                 difference * (c + self.interface.critical())
             }
-        };
-        let g = g2.max(zero).sqrt();
-        let s2 = s * s;
-        let a = k / ((g + c) * (g + c) * (c * g + s2)).max(R::from(f64::MIN_POSITIVE));
-        let f = a * a * (c * c * g2 + s2 * s2);
-        (g, zero.select_below(g2, f, k.select_below(zero, one, zero)))
+        }
     }
 
     #[inline(always)]
     fn reflected(&self, place: Place<R>, nodes: &ViewPolarNodes) -> R {
         let (s, c) = (-place.sine_to(self.at.first), place.sine_to(self.at.grazing));
-        let (_, f) = self.fresnel(place, c, s);
+        let g2 = self.root2(place, c, s);
+        let f = reflectance_from(c, g2, s * s, R::from(self.interface.k()));
         let swing = self.sv * s * c * 4.0;
         let (low, high) = place.to_horizon(self.at, swing);
         let visible = |x: R| {
@@ -216,7 +212,7 @@ impl<R: Real> View<R> {
         let (zero, tiny) = (R::from(0.0), R::from(f64::MIN_POSITIVE));
         let (eta, k) = (R::from(interface.eta()), R::from(interface.k()));
         let (s, c) = (-place.sine_to(self.at.first), place.sine_to(self.at.grazing));
-        let (g, _) = self.fresnel(place, c, s);
+        let g = self.root2(place, c, s).max(zero).sqrt();
         let (t, p) = ((g + c).max(tiny), (eta * eta * c + g).max(tiny));
         let passed = c * g * 2.0 * ((t * t).recip() + eta * eta / (p * p));
         // h·n = upright + 2 sv s/(1 + z²), from cos(θ - θ_v) down.

@@ -1,6 +1,6 @@
 //! Rough interfaces on the CPU.
 
-use super::{LANES, Points, Work, in_domain, scatter};
+use super::{Points, Work, in_groups};
 use crate::brdf::interface::Interface;
 use crate::integrate::Integrals;
 use crate::integrate::glass::{GlassNodes, glass};
@@ -8,7 +8,6 @@ use crate::integrate::rule::{Method, Rule};
 use crate::integrate::rules::REFERENCE_NODES;
 use crate::integrate::view_polar::{ViewPolarNodes, view_polar};
 use crate::numeric::lanes::{self, F64x8, vectorised};
-use std::array::from_fn;
 
 /// A rough interface by quadrature.
 pub(super) struct Glass {
@@ -38,22 +37,13 @@ impl Glass {
 
 impl Work for Glass {
     fn integrate(&self, points: Points, integrals: &mut [f64]) {
-        let last = integrals.len() / 2 - 1;
-        for (group, integrals) in integrals.chunks_mut(LANES * 2).enumerate() {
-            let points: [(f64, f64); LANES] =
-                from_fn(|i| points.get((group * LANES + i).min(last)));
-            debug_assert!(points.iter().all(|&(mu, alpha)| in_domain(mu, alpha)), "{points:?}");
-            // Any α will do in the lanes of mirrors.
-            let alphas = points.map(|(_, alpha)| if alpha == 0.0 { 1.0 } else { alpha });
-            let (mu, alpha) = (F64x8(points.map(|point| point.0)), F64x8(alphas));
-            scatter(&vectorised(Group { work: self, mu, alpha }), integrals);
-            for (integrals, (mu, alpha)) in integrals.chunks_exact_mut(2).zip(points) {
-                let exact = self.interface.exact(mu, alpha);
-                for (integral, exact) in integrals.iter_mut().zip(exact) {
-                    *integral = exact.map_or(*integral, |exact| exact.value);
-                }
+        let lanes = |mu, alpha| vectorised(Group { work: self, mu, alpha });
+        in_groups(points, integrals, lanes, |(mu, alpha), integrals| {
+            let exact = self.interface.exact(mu, alpha);
+            for (integral, exact) in integrals.iter_mut().zip(exact) {
+                *integral = exact.map_or(*integral, |exact| exact.value);
             }
-        }
+        });
     }
 
     fn shares_rows(&self) -> bool {

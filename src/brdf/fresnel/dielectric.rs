@@ -36,12 +36,12 @@ impl Dielectric {
     }
 
     /// n.
-    pub fn ior(self) -> f64 {
+    pub const fn ior(self) -> f64 {
         self.ior
     }
 
-    /// η² - 1.
-    fn k(self) -> f64 {
+    /// k = n² - 1.
+    pub fn k(self) -> f64 {
         (self.ior - 1.0) * (self.ior + 1.0)
     }
 }
@@ -104,9 +104,13 @@ pub const SMALLEST_ROOT: f64 = 1e-18;
 /// F at c = v·h with k = η² - 1.
 #[inline(always)]
 pub fn dielectric_reflectance<R: Real>(c: R, k: R) -> R {
-    let g2 = k + c * c;
+    reflectance_from(c, k + c * c, c.complement() * (c + 1.0), k)
+}
+
+/// The same from g² = k + c² and s² = 1 - c², for whoever has them without cancellation.
+#[inline(always)]
+pub fn reflectance_from<R: Real>(c: R, g2: R, s2: R, k: R) -> R {
     let g = g2.max(R::from(0.0)).sqrt();
-    let s2 = c.complement() * (c + 1.0);
     let sum = (g + c).max(R::from(SMALLEST_ROOT));
     let a = k / (sum * sum * (c * g + s2));
     let f = a * a * (c * c * g2 + s2 * s2);

@@ -2,7 +2,6 @@
 //! serve indices of refraction near 1 and large ones tints, as in the generalised Schlick models of
 //! Cycles and MaterialX (Schlick 1994, with p = 5; Hoffman 2019 on other exponents).
 
-use super::schlick::{schlick_complement, schlick_weight};
 use super::{Basis, Definition, Integral};
 use crate::error::{Error, Result};
 use crate::numeric::ball::Ball;
@@ -27,11 +26,6 @@ impl SchlickPower {
         }
         let cure = "give an exponent in that range";
         Err(Error::bad_input("exponent of schlick", "1 to 20", short(exponent), cure))
-    }
-
-    /// p.
-    pub fn exponent(self) -> f64 {
-        self.exponent
     }
 
     /// 2p where that is a whole number: then a power is products and a root.
@@ -87,9 +81,6 @@ impl Basis<2> for SchlickPower {
     }
 
     fn of_mirror(self, mu: f64) -> [Ball; 2] {
-        if self.exponent == 5.0 {
-            return [schlick_complement(mu.into()), schlick_weight(mu.into())];
-        }
         let w = libm::pow(1.0 - mu, self.exponent);
         // 1 - (1-μ)^p without cancellation.
         let complement = -libm::expm1(self.exponent * libm::log1p(-mu));
