@@ -1,7 +1,8 @@
 // The entry point that bakes the integrals of a range of a grid's texels, one invocation each: see
 // src/backend/vulkan/bake.rs. It needs store, which writes a texel's integrals.
 
-@group(0) @binding(1) var<storage, read> mus: array<f32>;
+// n.v, and how far it lies above the cosine of the critical angle, or above 0 where there is none.
+@group(0) @binding(1) var<storage, read> mus: array<vec2<f32>>;
 @group(0) @binding(2) var<storage, read> alphas: array<f32>;
 
 struct Job {

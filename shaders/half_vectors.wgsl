@@ -2,6 +2,14 @@
 // slope_end, slope_density and cosine_visibility of the lobe, fresnel_weights and their type
 // Weights, and the rule's nodes.
 
+// Numbers of nodes: see HalfVectorRule.
+struct Rule {
+    radial: u32,
+    azimuth: u32,
+    radial_horizon: u32,
+    azimuth_horizon: u32,
+}
+
 struct Ring {
     m: f32,
     s: f32,
@@ -49,26 +57,6 @@ fn cut_circle(mu: f32, alpha: f32, r: Ring, first: u32, count: u32) -> Weights {
         sum += node.y * (8.0 * tm * q) * integrand(x, mu, alpha, r.half_secant);
     }
     return sum;
-}
-
-// The weight of a radial node without the factor 1/cos^2 theta_h.
-fn radial_weight(alpha: f32, weight: f32, y: f32) -> f32 {
-    return weight * (y * slope_density(y * y, alpha));
-}
-
-// A sum in two levels: terms gather in blocks of 8, so that rounding grows with n/8 instead of n.
-// Halves the error of a bake.
-struct Sum {
-    total: Weights,
-    block: Weights,
-}
-
-fn add(sum: ptr<function, Sum>, i: u32, term: Weights) {
-    (*sum).block += term;
-    if i % 8u == 7u {
-        (*sum).total += (*sum).block;
-        (*sum).block = Weights(0.0);
-    }
 }
 
 // The integrals at n.v = mu in [0, 1] and alpha in (0, 1].

@@ -6,10 +6,10 @@ fn mirror(mu: f32) -> Weights {
     return smooth_limit(mu) * fresnel_weights(mu);
 }
 
-// The integrals at n.v = mu and alpha, both in [0, 1].
-fn integrate(mu: f32, alpha: f32, rule: Rule) -> Weights {
+// The integrals at n.v = view.x and alpha, both in [0, 1].
+fn integrate(view: vec2<f32>, alpha: f32, rule: Rule) -> Weights {
     if alpha == 0.0 {
-        return mirror(mu);
+        return mirror(view.x);
     }
-    return quadrature(mu, alpha, rule);
+    return quadrature(view.x, alpha, rule);
 }

@@ -11,9 +11,9 @@ pub mod vulkan;
 pub mod wgsl;
 
 #[cfg(not(feature = "vulkan"))]
-pub use absent::{Gpu, bake, list_devices};
+pub use absent::{Gpu, bake, bake_glass, list_devices};
 #[cfg(feature = "vulkan")]
-pub use vulkan::{bake::bake, devices::list_devices, gpu::Gpu};
+pub use vulkan::{bake::bake, bake::bake_glass, devices::list_devices, gpu::Gpu};
 
 use crate::choice::choice;
 use crate::error::{Complaint, Error, Result};

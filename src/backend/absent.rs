@@ -2,8 +2,10 @@
 
 use super::Progress;
 use super::device::{DeviceBake, DeviceInfo, GpuOptions};
+use crate::brdf::interface::Interface;
 use crate::brdf::{Fresnel, Microfacet};
 use crate::error::{Complaint, Error, Result};
+use crate::integrate::glass::GlassRule;
 use crate::integrate::half_vectors::HalfVectorRule;
 use crate::table::grid::Grid;
 
@@ -39,6 +41,17 @@ pub fn bake(
     _: (Microfacet, Fresnel),
     _: &Grid,
     _: &HalfVectorRule,
+    _: Progress,
+) -> Result<DeviceBake> {
+    match *gpu {}
+}
+
+/// R and T of an interface at every point of the grid.
+pub fn bake_glass(
+    gpu: &Gpu,
+    _: Interface,
+    _: &Grid,
+    _: &GlassRule,
     _: Progress,
 ) -> Result<DeviceBake> {
     match *gpu {}

@@ -1,9 +1,12 @@
 //! From WGSL modules to SPIR-V: the modules of a kernel joined, compiled by naga with every option
 //! spelled out, and the sizes that the host needs read off the result.
 
-use crate::brdf::{Fresnel, Microfacet, Ndf};
+use crate::brdf::fresnel::{Basis, Dielectric};
+use crate::brdf::interface::{Interface, Side, TransmissionMasking};
+use crate::brdf::{Fresnel, Masking, Microfacet, Ndf};
 use crate::choice::Choice;
 use crate::error::{Error, Result};
+use crate::integrate::half_vectors::TAIL_DEPTH;
 use crate::numeric::quadrature::slope_map::Power;
 use naga::back::spv;
 use naga::valid::{Capabilities, ShaderStages, SubgroupOperationSet, ValidationFlags, Validator};
@@ -18,8 +21,14 @@ pub mod module {
     pub const MASKING: &str = include_str!("../../shaders/masking.wgsl");
     /// Twin of `numeric::quadrature::slope_map`.
     pub const SLOPE_MAP: &str = include_str!("../../shaders/slope_map.wgsl");
-    /// The counts and the nodes of a rule.
-    pub const RULE: &str = include_str!("../../shaders/rule.wgsl");
+    /// The nodes of a rule.
+    pub const NODES: &str = include_str!("../../shaders/nodes.wgsl");
+    /// The weights of slopes, and their sum.
+    pub const RADIAL: &str = include_str!("../../shaders/radial.wgsl");
+    /// Twin of `integrate::glass::ring`.
+    pub const GLASS_RING: &str = include_str!("../../shaders/glass_ring.wgsl");
+    /// Twin of `integrate::glass`.
+    pub const GLASS: &str = include_str!("../../shaders/glass.wgsl");
     /// Twin of `integrate::half_vectors`.
     pub const HALF_VECTORS: &str = include_str!("../../shaders/half_vectors.wgsl");
     /// Twin of `backend::cpu`, as far as it takes care of α = 0.
@@ -43,10 +52,47 @@ pub struct Kernel {
 
 /// The WGSL that integrates a lobe over half vectors.
 pub fn lobe_source(lobe: Microfacet, fresnel: Fresnel, power: Power) -> String {
-    let distribution = lobe.ndf.definition();
     let (of_mirror, visibility) = lobe.masking.wgsl();
-    let limit = if distribution.becomes_mirror { of_mirror } else { "0.0" };
-    let wgsl = distribution.wgsl;
+    let limit = if lobe.ndf.definition().becomes_mirror { of_mirror } else { "0.0" };
+    let glue = format!(
+        "fn cosine_visibility(x: f32, mu: f32, alpha: f32) -> f32 {{ return {visibility}; }}
+fn smooth_limit(mu: f32) -> f32 {{ return {limit}; }}
+"
+    );
+    let slopes = slope_source(lobe.ndf, lobe.ndf.definition().wgsl.slope_end, power);
+    [&slopes, module::HALF_VECTORS, &fresnel_source(fresnel), &glue].join("\n")
+}
+
+/// The WGSL that integrates a rough interface, and its type of integrals.
+pub fn glass_source(interface: Interface, power: Power) -> String {
+    let visibility = |separable| match separable {
+        true => "separable(x, mu, area_l, area_v)",
+        false => "height_correlated(x, mu, area_l, area_v)",
+    };
+    let reflected = visibility(interface.lobe().masking == Masking::Separable);
+    let transmitted = visibility(interface.transmission() == TransmissionMasking::Separable);
+    let (eta, k, critical) = (interface.eta(), interface.k(), interface.critical());
+    let inside = interface.side() == Side::Inside;
+    let arguments = "(x: f32, mu: f32, area_l: f32, area_v: f32) -> f32";
+    let glue = format!(
+        "const ETA: f32 = {eta:e};
+const K: f32 = {k:e};
+const CRITICAL: f32 = {critical:e};
+const INSIDE = {inside};
+fn reflected_visibility{arguments} {{ return {reflected}; }}
+fn transmitted_visibility{arguments} {{ return {transmitted}; }}
+"
+    );
+    // The end of the CPU's, without which other nodes and another rule's error would be compared.
+    let ndf = interface.lobe().ndf;
+    let slopes = slope_source(ndf, &format!("{:e}", ndf.slope_end(1.0, TAIL_DEPTH)), power);
+    let (fresnel, _) = Dielectric::DEFINITION.wgsl;
+    [&slopes, fresnel, module::GLASS_RING, module::GLASS, &glue].join("\n")
+}
+
+/// The modules that every integral over half vectors takes, and a distribution's functions.
+fn slope_source(ndf: Ndf, slope_end: &str, power: Power) -> String {
+    let wgsl = ndf.definition().wgsl;
     let power = match power {
         Power::Two => 2,
         Power::Four => 4,
@@ -54,13 +100,11 @@ pub fn lobe_source(lobe: Microfacet, fresnel: Fresnel, power: Power) -> String {
     let glue = format!(
         "const POWER = {power}u;
 fn slope_width(alpha: f32) -> f32 {{ return {}; }}
-fn slope_end(alpha: f32) -> f32 {{ return {}; }}
+fn slope_end(alpha: f32) -> f32 {{ return {slope_end}; }}
 fn slope_density(y2: f32, alpha: f32) -> f32 {{ return {}; }}
 fn projected_area(c: f32, alpha: f32) -> f32 {{ return {}; }}
-fn cosine_visibility(x: f32, mu: f32, alpha: f32) -> f32 {{ return {visibility}; }}
-fn smooth_limit(mu: f32) -> f32 {{ return {limit}; }}
 ",
-        wgsl.width, wgsl.slope_end, wgsl.slope_density, wgsl.projected_area
+        wgsl.width, wgsl.slope_density, wgsl.projected_area
     );
     // A distribution may take functions of another's module.
     let mut models: Vec<&str> = Vec::new();
@@ -70,10 +114,8 @@ fn smooth_limit(mu: f32) -> f32 {{ return {limit}; }}
         }
     }
     let modules =
-        [module::SPECIAL, module::MASKING, module::RULE, module::SLOPE_MAP, module::HALF_VECTORS];
-    [&models.join("\n"), &modules.join("\n"), &fresnel_source(fresnel), &glue]
-        .map(String::as_str)
-        .join("\n")
+        [module::SPECIAL, module::MASKING, module::NODES, module::SLOPE_MAP, module::RADIAL];
+    [&models.join("\n"), &modules.join("\n"), &glue].map(String::as_str).join("\n")
 }
 
 /// The WGSL of a Fresnel model: its module, and the type of its weights and integrals.
@@ -95,8 +137,7 @@ fn fresnel_weights(vh: f32) -> Weights {{ return {weights}(vh{arguments}); }}
 }
 
 /// The WGSL that writes the integrals of a texel side by side.
-fn store_source(fresnel: Fresnel) -> String {
-    let count = fresnel.count();
+fn store_source(count: usize) -> String {
     let components = if count == 1 { vec![""] } else { vec![".x", ".y", ".z", ".w"] };
     let store = |(k, component): (usize, &&str)| {
         format!("    integrals[{count}u * texel + {k}u] = value{component};\n")
@@ -115,15 +156,28 @@ pub fn bake_kernel(lobe: Microfacet, fresnel: Fresnel, power: Power) -> Result<K
     kernel(&lobe_source(lobe, fresnel, power), fresnel, "half_vectors")
 }
 
-/// The kernel that bakes the integrals that `function` of a source gives for a texel.
+/// The kernel that bakes the integrals that `function` of a lobe's source gives for a texel.
 pub fn kernel(source: &str, fresnel: Fresnel, function: &str) -> Result<Kernel> {
     let quadrature = format!(
         "fn quadrature(mu: f32, alpha: f32, rule: Rule) -> Weights {{ return {function}(mu, alpha, \
          rule); }}"
     );
-    compile(
-        &[source, &store_source(fresnel), &quadrature, module::INTEGRATE, module::BAKE].join("\n"),
-    )
+    let store = store_source(fresnel.count());
+    compile(&[source, &store, &quadrature, module::INTEGRATE, module::BAKE].join("\n"))
+}
+
+/// The kernel that bakes R and T of a rough interface where they have to be integrated; zeros at
+/// α = 0.
+pub fn glass_kernel(interface: Interface, power: Power) -> Result<Kernel> {
+    let integrate = "fn integrate(view: vec2<f32>, alpha: f32, rule: Rule) -> Weights {
+    if alpha == 0.0 {
+        return Weights(0.0);
+    }
+    return glass(view.x, view.y, alpha, rule);
+}
+";
+    let source = glass_source(interface, power);
+    compile(&[&source, &store_source(2), integrate, module::BAKE].join("\n"))
 }
 
 /// Compiles WGSL whose compute entry point is `main`.

@@ -3,7 +3,7 @@
 
 use crate::backend::cpu::Baker;
 use crate::backend::device::DeviceBake;
-use crate::backend::{Gpu, Progress, bake};
+use crate::backend::{Gpu, Progress, bake, bake_glass};
 use crate::brdf::fresnel::with_basis;
 use crate::certify::deviation::{self, Deviation};
 use crate::error::{Error, Result};
@@ -104,7 +104,7 @@ pub(super) fn sum(so_far: Option<f64>, next: Option<f64>) -> Option<f64> {
     next.map(|next| so_far.unwrap_or(0.0) + next)
 }
 
-/// The integrals of a specular lobe by a device.
+/// The integrals of a specular lobe or of an interface by a device.
 pub(super) fn on_device(
     gpu: &Gpu,
     integrand: Integrand,
@@ -115,6 +115,9 @@ pub(super) fn on_device(
     match (integrand, rule.method) {
         (Integrand::Specular(lobe, fresnel), Method::HalfVectors(nodes)) => {
             bake(gpu, (lobe, fresnel), grid, &nodes, progress)
+        }
+        (Integrand::Glass(interface), Method::Glass(nodes)) => {
+            bake_glass(gpu, interface, grid, &nodes, progress)
         }
         _ => Err(Error::Internal(format!("rule {} on a device", rule.name))),
     }

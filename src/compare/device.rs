@@ -51,8 +51,9 @@ pub fn bake_samples(
     let work = Work {
         kernel: kernel(&source, fresnel, "estimate")?,
         nodes: point_data(points),
-        counts: [points.len(), 0, 0, 0],
+        counts: vec![points.len(), 0, 0, 0],
         count: fresnel.count(),
+        critical: 0.0,
     };
     run(gpu, &work, grid, &|_| ())
 }

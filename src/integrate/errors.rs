@@ -131,12 +131,12 @@ impl Errors {
 
     /// The bounds at one α.
     pub fn row(&self, alpha: f64) -> RowErrors {
-        // In f32 the rounding of v·h leaves nothing sharp.
+        let all_vanish = matches!(self.integrand, Integrand::Glass(_));
+        // In f32 the rounding of v·h leaves nothing sharp; of glass it was not measured.
         let rounds = self.added.iter().any(|&added| added > 0.0);
-        let sharp = || !rounds && self.rule.bound(self.integrand) <= SHARP_ON_DEVICE;
+        let sharp = || !rounds && !all_vanish && self.rule.bound(self.integrand) <= SHARP_ON_DEVICE;
         let device = self.device.map(|f32| Device { f32, sharp: sharp() });
         let bound = self.rule.bounds_at(self.integrand, alpha);
-        let all_vanish = matches!(self.integrand, Integrand::Glass(_));
         RowErrors { bound, device, factors: self.factors, added: self.added, all_vanish }
     }
 

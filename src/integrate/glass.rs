@@ -22,12 +22,14 @@
 //! - θ_h = π/2 - θ_v: the ring reaches c = 0, for transmission from the thinner side.
 
 mod nodes;
-mod ring;
+pub mod ring;
 
 pub use self::nodes::{Counts, GlassNodes, GlassRule};
 
 use self::nodes::ExitNodes;
-use self::ring::{Azimuth, Ring, SMALLEST_SWING, Zero, beyond, either, interval};
+use self::ring::{
+    Azimuth, Ring, SMALLEST_SWING, Zero, beyond, cosine_at, either, interval, zero_at,
+};
 use super::Integrals;
 use super::half_vectors::{TAIL_DEPTH, radial_weight};
 use crate::brdf::fresnel::{SMALLEST_ROOT, reflectance_from};
@@ -54,7 +56,7 @@ pub fn glass<R: Real>(
 
 /// The quantities that are the same for all half vectors.
 #[derive(Clone, Copy)]
-struct View<R> {
+pub struct View<R> {
     interface: Interface,
     mu: R,
     sv: R,
@@ -77,15 +79,16 @@ const FAR: f64 = 1e18;
 
 /// tan of an angle with this sine and cosine, at most [`FAR`], which stands for all beyond.
 #[inline(always)]
-fn tangent<R: Real>(sine: R, cosine: R) -> R {
+pub fn tangent<R: Real>(sine: R, cosine: R) -> R {
     let (zero, far) = (R::from(0.0), R::from(FAR));
     let tangent = (sine / cosine.max(R::from(SMALLEST_SWING))).min(far);
     zero.select_below(cosine, tangent, far)
 }
 
 impl<R: Real> View<R> {
+    /// The view at n·v = `mu`: see [`glass`].
     #[inline(always)]
-    fn new(interface: Interface, mu: R, from_critical: R, alpha: R) -> Self {
+    pub fn new(interface: Interface, mu: R, from_critical: R, alpha: R) -> Self {
         View {
             interface,
             mu,
@@ -101,7 +104,7 @@ impl<R: Real> View<R> {
 
     /// tan |θ_v - θ_c| and tan(θ_v + θ_c).
     #[inline(always)]
-    fn touches(&self) -> [R; 2] {
+    pub fn touches(&self) -> [R; 2] {
         let View { mu, sv, from_critical, eta, critical, .. } = *self;
         let sum = sv * critical + mu * eta;
         // sin(θ_v - θ_c), from the difference of the squared cosines.
@@ -111,7 +114,7 @@ impl<R: Real> View<R> {
 
     /// The slopes tan θ_h between pieces of reflection, the first and the last included.
     #[inline(always)]
-    fn reflected_breaks(&self) -> [R; 6] {
+    pub fn reflected_breaks(&self) -> [R; 6] {
         let View { mu, sv, critical, .. } = *self;
         let (zero, full) = (R::from(0.0), mu / (sv + 1.0));
         let end = tangent(sv + 1.0, mu);
@@ -128,7 +131,7 @@ impl<R: Real> View<R> {
 
     /// The same of transmission.
     #[inline(always)]
-    fn transmitted_breaks(&self) -> [R; 6] {
+    pub fn transmitted_breaks(&self) -> [R; 6] {
         let View { mu, sv, from_critical, eta, critical, .. } = *self;
         let (zero, far) = (R::from(0.0), R::from(FAR));
         match self.interface.side() {
@@ -157,15 +160,13 @@ impl<R: Real> View<R> {
         nodes: &ExitNodes,
         azimuths: impl Fn(&Self, Ring<R>, &ExitNodes) -> R,
     ) -> R {
-        let View { mu, sv, alpha, .. } = *self;
         let lobe = self.interface.lobe();
-        let width = lobe.ndf.width(alpha);
-        let end = lobe.ndf.slope_end(alpha, TAIL_DEPTH);
+        let width = lobe.ndf.width(self.alpha);
+        let end = lobe.ndf.slope_end(self.alpha, TAIL_DEPTH);
         let zero = R::from(0.0);
         let mut sum = zero;
         for ends in breaks.windows(2) {
-            let scaled = |tau: R| (tau / width).min(end);
-            let (first, last) = (scaled(ends[0]), scaled(ends[1]));
+            let [first, last] = [ends[0], ends[1]].map(|tau| (tau / width).min(end));
             let length = last - first;
             if !length.any(|length| length > 0.0) {
                 continue;
@@ -174,50 +175,69 @@ impl<R: Real> View<R> {
             let mut part = zero;
             for node in &nodes.slopes {
                 let slope = slope_at(node.at, interval, nodes.power);
-                let tau = width * slope.y;
-                let secant = (tau * tau + 1.0).sqrt();
-                let ring = Ring {
-                    secant,
-                    middle: mu / secant,
-                    swing: (sv * tau / secant).max(R::from(SMALLEST_SWING)),
-                    versine: tau / secant * (tau / (secant + 1.0)),
-                };
-                let weight = radial_weight(lobe, alpha, slope.dy * node.weight, slope.y);
-                part = part + weight * (secant * azimuths(self, ring, nodes));
+                let ring = self.ring_at(width * slope.y);
+                let weight = radial_weight(lobe, self.alpha, slope.dy * node.weight, slope.y);
+                part = part + weight * (ring.secant * azimuths(self, ring, nodes));
             }
             sum = sum + zero.select_below(length, part, zero);
         }
         sum * 4.0
     }
 
+    /// The ring of half vectors with this slope.
+    #[inline(always)]
+    pub fn ring_at(&self, tau: R) -> Ring<R> {
+        let secant = (tau * tau + 1.0).sqrt();
+        let sine = tau / secant;
+        Ring {
+            secant,
+            middle: self.mu / secant,
+            swing: (self.sv * sine).max(R::from(SMALLEST_SWING)),
+            versine: sine * (tau / (secant + 1.0)),
+        }
+    }
+
     /// Where c is that of the critical angle.
     #[inline(always)]
-    fn critical_zero(&self, ring: Ring<R>) -> Zero<R> {
+    pub fn critical_zero(&self, ring: Ring<R>) -> Zero<R> {
         let below = self.mu * ring.versine - self.from_critical;
-        Zero::new(ring.swing * 2.0, (below / ring.swing + 1.0) * 0.5)
+        zero_at(ring.swing * 2.0, (below / ring.swing + 1.0) * 0.5)
+    }
+
+    /// c G₂/(4μ) of reflection towards n·l = `x`.
+    #[inline(always)]
+    pub fn seen(&self, ring: Ring<R>, x: R) -> R {
+        let View { interface, mu, area_v, alpha, .. } = *self;
+        let x = x.max(R::from(0.0)).min(R::from(1.0));
+        let visible = interface.lobe().cosine_visibility_at(x, mu, area_v, alpha);
+        (x + mu) * ring.secant * 0.5 * visible
+    }
+
+    /// c (1 - F) G₂/(4μ) of transmission at c with g² = k + c².
+    #[inline(always)]
+    pub fn passed(&self, ring: Ring<R>, c: R, g2: R) -> R {
+        let View { interface, mu, area_v, alpha, k, eta, .. } = *self;
+        let g = g2.max(R::from(0.0)).sqrt();
+        let sum = (c + g).max(R::from(SMALLEST_ROOT));
+        let x = ((mu + k / (sum * ring.secant)) / eta).max(R::from(0.0)).min(R::from(1.0));
+        c * self.transmittance(c, g) * interface.transmitted_visibility(x, mu, area_v, alpha)
     }
 
     /// ∫ c F (G₂/(4μ)) dφ
     #[inline(always)]
-    fn reflected_ring(&self, ring: Ring<R>, nodes: &ExitNodes) -> R {
-        let View { mu, alpha, k, critical, .. } = *self;
+    pub fn reflected_ring(&self, ring: Ring<R>, nodes: &ExitNodes) -> R {
+        let View { mu, k, critical, .. } = *self;
         let (zero, one) = (R::from(0.0), R::from(1.0));
-        let Ring { secant, middle, swing, .. } = ring;
         // n·l = 2c/secant - μ
-        let light = swing * 2.0 / secant;
-        let horizon = (mu - middle * 2.0 / secant) / light;
-        let horizon = Zero::new(light * 2.0, (horizon + 1.0) * 0.5);
-        let visible = |x: R| {
-            let x = x.max(zero).min(one);
-            let lobe = self.interface.lobe();
-            (x + mu) * secant * 0.5 * lobe.cosine_visibility_at(x, mu, self.area_v, alpha)
-        };
+        let light = ring.swing * 2.0 / ring.secant;
+        let below = (mu - ring.middle * 2.0 / ring.secant) / light;
+        let horizon = zero_at(light * 2.0, (below + 1.0) * 0.5);
         match self.interface.side() {
             Side::Outside => {
                 let part = |azimuth, rest| {
-                    let x = horizon.at(azimuth, rest);
-                    let c = (x.max(zero) + mu) * secant * 0.5;
-                    visible(x) * self.reflectance(c, k + c * c)
+                    let x = cosine_at(horizon, azimuth, rest);
+                    let c = (x.max(zero) + mu) * ring.secant * 0.5;
+                    self.seen(ring, x) * self.reflectance(c, k + c * c)
                 };
                 interval(horizon.t2, &nodes.even, part)
             }
@@ -225,17 +245,18 @@ impl<R: Real> View<R> {
                 let cone = self.critical_zero(ring);
                 let t2 = cone.t2.min(horizon.t2);
                 let partly = |azimuth, rest| {
-                    let above = cone.at(azimuth, (cone.t2 - t2) + rest);
+                    let above = cosine_at(cone, azimuth, (cone.t2 - t2) + rest);
                     let c = above + critical;
                     let f = self.reflectance(c, above * (c + critical));
-                    visible(horizon.at(azimuth, (horizon.t2 - t2) + rest)) * f
+                    self.seen(ring, cosine_at(horizon, azimuth, (horizon.t2 - t2) + rest)) * f
                 };
                 // The cone cuts the ring inside of the horizon.
                 let root = zero.select_below(cone.square, one, zero)
                     * horizon.square.select_below(cone.square, one, zero);
                 let part = either(root, t2, &nodes.root, &nodes.even, partly);
-                let whole =
-                    |azimuth: Azimuth<R>| visible(horizon.at(azimuth, horizon.t2 - azimuth.t2));
+                let whole = |azimuth: Azimuth<R>| {
+                    self.seen(ring, cosine_at(horizon, azimuth, horizon.t2 - azimuth.t2))
+                };
                 part + beyond(t2, horizon.t2, nodes, whole)
             }
         }
@@ -243,23 +264,15 @@ impl<R: Real> View<R> {
 
     /// ∫ c (1 - F) (G₂/(4μ)) dφ
     #[inline(always)]
-    fn transmitted_ring(&self, ring: Ring<R>, nodes: &ExitNodes) -> R {
-        let View { interface, mu, alpha, k, eta, critical, area_v, .. } = *self;
+    pub fn transmitted_ring(&self, ring: Ring<R>, nodes: &ExitNodes) -> R {
+        let View { mu, k, critical, .. } = *self;
         let (zero, one) = (R::from(0.0), R::from(1.0));
-        let Ring { secant, middle, swing, .. } = ring;
-        let passed = |c: R, g2: R| {
-            let g = g2.max(zero).sqrt();
-            let sum = (c + g).max(R::from(SMALLEST_ROOT));
-            let x = ((mu + k / (sum * secant)) / eta).max(zero).min(one);
-            let visible = interface.transmitted_visibility(x, mu, area_v, alpha);
-            c * self.transmittance(c, g) * visible
-        };
-        match interface.side() {
+        match self.interface.side() {
             Side::Outside => {
-                let grazing = Zero::new(swing * 2.0, (one - middle / swing) * 0.5);
+                let grazing = zero_at(ring.swing * 2.0, (one - ring.middle / ring.swing) * 0.5);
                 let part = |azimuth, rest| {
-                    let c = grazing.at(azimuth, rest).max(zero);
-                    passed(c, k + c * c)
+                    let c = cosine_at(grazing, azimuth, rest).max(zero);
+                    self.passed(ring, c, k + c * c)
                 };
                 interval(grazing.t2, &nodes.even, part)
             }
@@ -267,14 +280,14 @@ impl<R: Real> View<R> {
                 let cone = self.critical_zero(ring);
                 // x > 0 where c > (κ² + cos²θ_c)/(2κ), κ = μ/cos θ_h, which lies this far above
                 // cos θ_c where κ is below it.
-                let kappa = mu * secant;
+                let kappa = mu * ring.secant;
                 let lack = (critical - kappa).max(zero);
                 let lift = lack * lack / (kappa.max(R::from(SMALLEST_SWING)) * 2.0);
-                let limit = Zero::new(cone.scale, cone.square + lift / cone.scale);
+                let limit = zero_at(cone.scale, cone.square + lift / cone.scale);
                 let part = |azimuth, rest| {
-                    let above = limit.at(azimuth, rest) + lift;
+                    let above = cosine_at(limit, azimuth, rest) + lift;
                     let c = above + critical;
-                    passed(c, above * (c + critical))
+                    self.passed(ring, c, above * (c + critical))
                 };
                 let near = cone.scale * limit.square.complement() * NEAR;
                 let root =
@@ -286,7 +299,7 @@ impl<R: Real> View<R> {
 
     /// F at c with g² = k + c².
     #[inline(always)]
-    fn reflectance(&self, c: R, g2: R) -> R {
+    pub fn reflectance(&self, c: R, g2: R) -> R {
         // On the last ring c may round beyond 1.
         let s2 = c.complement().max(R::from(0.0)) * (c + 1.0);
         reflectance_from(c, g2, s2, self.k)
@@ -294,7 +307,7 @@ impl<R: Real> View<R> {
 
     /// 1 - F
     #[inline(always)]
-    fn transmittance(&self, c: R, g: R) -> R {
+    pub fn transmittance(&self, c: R, g: R) -> R {
         let eta2 = self.k + 1.0;
         let floor = R::from(SMALLEST_ROOT);
         let (s, p) = ((c + g).max(floor), (eta2 * c + g).max(floor));
@@ -305,7 +318,7 @@ impl<R: Real> View<R> {
 
 /// The ends of pieces from `start` to `end` with these breaks between, in ascending order.
 #[inline(always)]
-fn sorted<R: Real>(start: R, breaks: [R; 4], end: R) -> [R; 6] {
+pub fn sorted<R: Real>(start: R, breaks: [R; 4], end: R) -> [R; 6] {
     let [a, b, c, d] = breaks.map(|at| at.max(start).min(end));
     let (a, b) = (a.min(b), a.max(b));
     let (c, d) = (c.min(d), c.max(d));

@@ -22,7 +22,7 @@ pub enum Method {
     DoubleExponential(DoubleExponentialRule),
     /// Interpolated between integrals: GGX with three masking terms, CPU.
     Interpolant(InterpolantRule),
-    /// Over half vectors with pieces at the critical angle: glass, CPU.
+    /// Over half vectors with pieces at the critical angle: glass, CPU and device.
     Glass(GlassRule),
     /// No quadrature: diffuse lobes.
     ClosedForm,
@@ -50,7 +50,14 @@ impl PartialEq for Rule {
 impl Rule {
     /// Whether a device can run it.
     pub fn runs_on_device(&self) -> bool {
-        matches!(self.method, Method::HalfVectors(_))
+        match self.method {
+            Method::HalfVectors(_) => true,
+            Method::Glass(rule) => rule.fits_f32(),
+            Method::LightDirections(_)
+            | Method::DoubleExponential(_)
+            | Method::Interpolant(_)
+            | Method::ClosedForm => false,
+        }
     }
 
     /// Whether it serves for an integrand: a list of what each method was made and measured for.

@@ -33,6 +33,7 @@ use crate::brdf::{Microfacet, Ndf};
 use crate::integrate::half_vectors::TAIL_DEPTH;
 use crate::numeric::lanes::Real;
 use crate::numeric::quadrature::tanh_sinh::{DeNode, half_line, tanh_sinh};
+use crate::numeric::special::{exponential, hyperbolic_sine};
 
 /// The nodes of a rule.
 #[derive(Clone, Debug)]
@@ -295,11 +296,13 @@ impl<R: Real> View<R> {
             for node in &nodes.arc {
                 let (from_start, to_end) = (length * node.from_start, length * node.to_end);
                 let r = from_start.select_below(to_end, r0 + from_start, r1 - to_end);
-                let z = k * r.zip(r, |r, _| libm::sinh(r));
-                let gap = (r1 - to_end * 0.5)
-                    .zip(to_end, |middle, d| 2.0 * libm::cosh(middle) * libm::sinh(0.5 * d));
+                let (e, half) = (exponential(r), hyperbolic_sine(to_end * 0.5));
+                let (sinh, cosh) = ((e - e.recip()) * 0.5, (e + e.recip()) * 0.5);
+                // sinh r1 - sinh r, without cancellation.
+                let gap = half * 2.0 * (half * sinh + (half * half + 1.0).sqrt() * cosh);
+                let z = k * sinh;
                 let (z2, rest) = (z * z, beyond + k * gap * (z + to));
-                let dz = length * node.weight * k * r.zip(r, |r, _| libm::cosh(r));
+                let dz = length * node.weight * k * cosh;
                 part = part + density(z2) * arc(z2, rest) * dz / (z2 + 1.0);
             }
             part = zero.select_below(length, part, zero);

@@ -1,6 +1,6 @@
 //! Special functions of the models. In f64 they come from libm, the same bits everywhere, but for
-//! the two that distributions of normals take at every evaluation: those are written out, so that
-//! they run in vector registers. Their twins on a device use only + - × ÷, since a driver's own exp
+//! those that integrands take at every evaluation: these are written out, so that they run in vector
+//! registers. Their twins on a device use only + - × ÷, since a driver's own exp
 //! and log may err by dozens of ulps.
 
 use crate::numeric::lanes::{ROUND_F64, Real};
@@ -26,6 +26,19 @@ pub fn exponential<R: Real>(x: R) -> R {
         f64::from_bits((k + ROUND_F64).to_bits().wrapping_shl(52).wrapping_add(1023 << 52))
     });
     below.select_below(floor, R::from(0.0), sum * power)
+}
+
+/// sinh(x) for |x| ≤ 600 within 4 ulps: by Taylor's series to x^19 up to 1, whose rest is 2e-20,
+/// else by exponentials.
+#[inline(always)]
+pub fn hyperbolic_sine<R: Real>(x: R) -> R {
+    let x2 = x * x;
+    let mut sum = R::from(1.0);
+    for n in (1..10).rev() {
+        sum = sum * x2 * (1.0 / f64::from(2 * n * (2 * n + 1))) + 1.0;
+    }
+    let e = exponential(x);
+    x2.select_below(R::from(1.0), x * sum, (e - e.recip()) * 0.5)
 }
 
 /// e^r - 1.

@@ -52,7 +52,7 @@ fn compare(gpu: &Gpu, case: &Case) -> Result<(), Failed> {
         false => "vec2<f32>()".into(),
     };
     let expression = format!("vec4<f32>({pair}, {name}_albedo({all}), 0.0)");
-    let source = [module::RULE, &case.code(Language::Wgsl)?].join("\n");
+    let source = [module::NODES, &case.code(Language::Wgsl)?].join("\n");
     let results = evaluate(gpu, &source, &expression, &[], &arguments)?;
     assert_eq!(results.len(), POINTS);
     for ((result, Expected { values, scale }), point) in

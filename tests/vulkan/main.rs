@@ -9,6 +9,7 @@ mod certified;
 #[path = "../common/mod.rs"]
 mod common;
 mod faults;
+mod glass;
 mod model_twins;
 mod previews;
 mod sampling_twins;
@@ -36,6 +37,7 @@ fn main() {
     arguments.test_threads = Some(1);
     let tests: Vec<DeviceTest> = [
         twins::TESTS,
+        glass::TESTS,
         sampling_twins::TESTS,
         stability::TESTS,
         tables::TESTS,

@@ -253,7 +253,7 @@ fn twins<const N: usize, B: Basis<N>>(
         },
         Twin {
             name: "integrate",
-            wgsl: "filled(integrate(p.x, p.y, Rule(16u, 8u, 20u, 8u)))",
+            wgsl: "filled(integrate(vec2(p.x, p.x), p.y, Rule(16u, 8u, 20u, 8u)))",
             rust: Box::new(move |a| match a {
                 [mu, 0.0, ..] => mirror(mu),
                 [mu, alpha, ..] => filled(half_vectors(lobe, basis, mu, alpha, &whole_or_mirror).0),

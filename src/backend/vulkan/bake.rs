@@ -6,11 +6,14 @@ use super::gpu::Gpu;
 use super::pipeline::{Elapsed, Pipeline};
 use crate::backend::Progress;
 use crate::backend::device::DeviceBake;
-use crate::backend::wgsl::{Kernel, bake_kernel};
+use crate::backend::wgsl::{Kernel, bake_kernel, glass_kernel};
+use crate::brdf::interface::Interface;
 use crate::brdf::{Fresnel, Microfacet};
 use crate::error::{Error, Result};
 use crate::integrate::Field;
+use crate::integrate::glass::GlassRule;
 use crate::integrate::half_vectors::{HalfVectorNodes, HalfVectorRule};
+use crate::numeric::quadrature::gauss_legendre::Node;
 use crate::table::grid::Grid;
 use std::time::Duration;
 
@@ -35,9 +38,11 @@ pub struct Work {
     /// The contents of its first buffer.
     pub nodes: Vec<[f32; 2]>,
     /// The fields of its `Rule`.
-    pub counts: [usize; 4],
+    pub counts: Vec<usize>,
     /// Integrals for each point.
     pub count: usize,
+    /// The cosine of the critical angle, or 0.
+    pub critical: f64,
 }
 
 /// The integrals of a lobe at every point of the grid, in its order, by `rule` in f32.
@@ -51,21 +56,53 @@ pub fn bake(
     let work = Work {
         kernel: bake_kernel(lobe, fresnel, rule.power)?,
         nodes: node_data(&rule.nodes()),
-        counts: rule.counts(),
+        counts: rule.counts().into(),
         count: fresnel.count(),
+        critical: 0.0,
     };
     run(gpu, &work, grid, progress)
 }
 
+/// R and T of an interface at every point of the grid, in its order, by `rule` in f32, and in f64
+/// where they are known exactly.
+pub fn bake_glass(
+    gpu: &Gpu,
+    interface: Interface,
+    grid: &Grid,
+    rule: &GlassRule,
+    progress: Progress,
+) -> Result<DeviceBake> {
+    let side = interface.side();
+    let nodes = rule.nodes(side);
+    let work = Work {
+        kernel: glass_kernel(interface, rule.power(side))?,
+        nodes: nodes.lists().into_iter().flatten().map(pair).collect(),
+        counts: rule.counts(side).into(),
+        count: 2,
+        critical: interface.critical(),
+    };
+    let mut baked = run(gpu, &work, grid, progress)?;
+    for (i, integrals) in baked.integrals.values_mut().chunks_exact_mut(2).enumerate() {
+        let (mu, alpha) = grid.point(i);
+        for (integral, exact) in integrals.iter_mut().zip(interface.exact(mu, alpha)) {
+            *integral = exact.map_or(*integral, |exact| exact.value);
+        }
+    }
+    Ok(baked)
+}
+
 /// Runs a kernel at every point of the grid; the results are in its order.
 pub fn run(gpu: &Gpu, work: &Work, grid: &Grid, progress: Progress) -> Result<DeviceBake> {
-    let Work { kernel, nodes, counts, count } = work;
+    let Work { kernel, nodes, counts, count, critical } = work;
     let group = kernel.workgroup;
     let largest = largest_tile(gpu, group, *count).min(grid.len());
     let mut tile = gpu.options().tile.unwrap_or(FIRST_TILE).clamp(1, largest);
     let nodes = Buffer::with(gpu, nodes)?;
-    let mus = Buffer::with(gpu, &to_f32(&grid.mus))?;
-    let alphas = Buffer::with(gpu, &to_f32(&grid.alphas))?;
+    // The difference is rounded once: near the critical angle none of f32 is left in the shader.
+    let view = |&mu: &f64| [mu as f32, (mu - critical) as f32];
+    let mus = Buffer::with(gpu, &grid.mus.iter().map(view).collect::<Vec<_>>())?;
+    let alphas: Vec<f32> = grid.alphas.iter().map(|&alpha| alpha as f32).collect();
+    let alphas = Buffer::with(gpu, &alphas)?;
     let results = Buffer::new(gpu, size_of::<f32>() * count * largest)?;
     let buffers = [&nodes, &mus, &alphas, &results];
     let pipeline = Pipeline::new(gpu, kernel, &buffers)?;
@@ -77,7 +114,7 @@ pub fn run(gpu: &Gpu, work: &Work, grid: &Grid, progress: Progress) -> Result<De
         let texels = tile.min(grid.len() - first);
         results.write(&poison[..texels * count]);
         let push: Vec<u32> =
-            [first, first + texels].into_iter().chain(*counts).map(|n| n as u32).collect();
+            [first, first + texels].iter().chain(counts).map(|&n| n as u32).collect();
         let Elapsed { wall, device } =
             pipeline.run(bytemuck::cast_slice(&push), texels.div_ceil(group) as u32)?;
         device_seconds = device_seconds.zip(device).map(|(sum, device)| sum + device);
@@ -108,11 +145,12 @@ fn next_tile(tile: usize, elapsed: Duration) -> usize {
 /// The nodes as the shader reads them: (position, weight), in the order of the fields of `Rule`.
 pub fn node_data(nodes: &HalfVectorNodes) -> Vec<[f32; 2]> {
     let lists = [&nodes.radial, &nodes.azimuth, &nodes.radial_horizon, &nodes.azimuth_horizon];
-    lists.into_iter().flatten().map(|node| [node.at as f32, node.weight as f32]).collect()
+    lists.into_iter().flatten().map(pair).collect()
 }
 
-fn to_f32(values: &[f64]) -> Vec<f32> {
-    values.iter().map(|&value| value as f32).collect()
+/// A node as a shader reads it.
+pub fn pair(node: &Node) -> [f32; 2] {
+    [node.at as f32, node.weight as f32]
 }
 
 /// Under validation, anything that the layers say is a failure.

@@ -32,22 +32,26 @@ pub struct GlassRule {
 #[derive(Clone, Debug)]
 pub struct ExitNodes {
     /// Slopes of a piece.
-    pub(super) slopes: Vec<Node>,
+    pub slopes: Vec<Node>,
     /// Azimuths of an interval that is symmetric about its start.
-    pub(super) even: Vec<Node>,
+    pub even: Vec<Node>,
     /// Of one with a root at its end.
-    pub(super) root: Vec<Node>,
-    /// Of light that is reflected whole, symmetric about the start or not.
-    pub(super) total_even: Vec<Node>,
-    pub(super) total: Vec<Node>,
-    pub(super) power: Power,
+    pub root: Vec<Node>,
+    /// Of light that is reflected whole, symmetric about the start.
+    pub total_even: Vec<Node>,
+    /// Of it where the start lies beyond 0.
+    pub total: Vec<Node>,
+    /// The slope map.
+    pub power: Power,
 }
 
 /// The nodes for both.
 #[derive(Clone, Debug)]
 pub struct GlassNodes {
-    pub(super) reflected: ExitNodes,
-    pub(super) transmitted: ExitNodes,
+    /// Of R.
+    pub reflected: ExitNodes,
+    /// Of T.
+    pub transmitted: ExitNodes,
 }
 
 impl Counts {
@@ -89,12 +93,53 @@ impl GlassRule {
         2 * (reflected.slopes * reflected.azimuths + transmitted.slopes * transmitted.azimuths)
     }
 
-    /// The nodes for a side.
-    pub fn nodes(&self, side: Side) -> GlassNodes {
-        let [reflected, transmitted] = match side {
+    /// The numbers of nodes of a side in the order of the shader's `Rule`.
+    pub fn counts(&self, side: Side) -> [usize; 5] {
+        let [reflected, transmitted] = self.of(side);
+        let Counts { slopes, azimuths, total, .. } = reflected;
+        [slopes, azimuths, total, transmitted.slopes, transmitted.azimuths]
+    }
+
+    /// The slope map of a side, the same for both integrals.
+    pub fn power(&self, side: Side) -> Power {
+        self.of(side)[0].power
+    }
+
+    /// Whether f32 adds no more than to any other lobe: with the other map the squares of slopes
+    /// leave its range, and a rule of few nodes hangs on the rounding by which they are chosen near
+    /// the critical angle.
+    pub fn fits_f32(&self) -> bool {
+        let fits = |counts: &Counts| counts.power == Power::Two && counts.crowded;
+        self.outside.iter().chain(&self.inside).all(fits)
+    }
+
+    fn of(&self, side: Side) -> [Counts; 2] {
+        match side {
             Side::Outside => self.outside,
             Side::Inside => self.inside,
-        };
+        }
+    }
+
+    /// The nodes for a side.
+    pub fn nodes(&self, side: Side) -> GlassNodes {
+        let [reflected, transmitted] = self.of(side);
         GlassNodes { reflected: reflected.nodes(), transmitted: transmitted.nodes() }
+    }
+}
+
+impl GlassNodes {
+    /// The lists of nodes in the order of the shader's.
+    pub fn lists(&self) -> [&[Node]; 8] {
+        let GlassNodes { reflected, transmitted } = self;
+        [
+            &reflected.slopes,
+            &reflected.even,
+            &reflected.root,
+            &reflected.total_even,
+            &reflected.total,
+            &transmitted.slopes,
+            &transmitted.even,
+            &transmitted.root,
+        ]
     }
 }

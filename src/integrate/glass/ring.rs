@@ -6,64 +6,82 @@ use crate::numeric::quadrature::gauss_legendre::Node;
 
 /// The half vectors of one slope: c = middle + swing cos φ.
 #[derive(Clone, Copy)]
-pub(super) struct Ring<R> {
-    pub(super) secant: R,
-    pub(super) middle: R,
-    pub(super) swing: R,
+pub struct Ring<R> {
+    /// 1/cos θ_h
+    pub secant: R,
+    /// The mean of c.
+    pub middle: R,
+    /// Its amplitude.
+    pub swing: R,
     /// 1 - cos θ_h
-    pub(super) versine: R,
+    pub versine: R,
 }
 
-/// A place on a ring: 1/(1+t²), C and t².
+/// A place on a ring.
 #[derive(Clone, Copy)]
-pub(super) struct Azimuth<R> {
-    pub(super) share: R,
-    pub(super) cos_half: R,
-    pub(super) t2: R,
+pub struct Azimuth<R> {
+    /// 1/(1+t²)
+    pub share: R,
+    /// C
+    pub cos_half: R,
+    /// t²
+    pub t2: R,
 }
 
 /// A cosine of a ring that vanishes at C² = `square`: `scale` (C² - `square`).
 #[derive(Clone, Copy)]
-pub(super) struct Zero<R> {
-    pub(super) scale: R,
-    pub(super) square: R,
-    pub(super) cos_half: R,
-    pub(super) t2: R,
+pub struct Zero<R> {
+    /// The factor.
+    pub scale: R,
+    /// C² where it vanishes; below 0 or above 1 where it does so nowhere.
+    pub square: R,
+    /// C there.
+    pub cos_half: R,
+    /// t² there.
+    pub t2: R,
+    /// 2 `scale`/(1 + t²) there.
+    pub slope: R,
 }
 
 /// Nothing on a ring is as narrow: it keeps 0/0 away where all half vectors have one c.
-pub(super) const SMALLEST_SWING: f64 = 1e-30;
+pub const SMALLEST_SWING: f64 = 1e-30;
 
-impl<R: Real> Zero<R> {
-    #[inline(always)]
-    pub(super) fn new(scale: R, square: R) -> Self {
-        let (zero, one) = (R::from(0.0), R::from(1.0));
-        let cos_half = square.max(zero).min(one).sqrt();
-        Zero { scale, square, cos_half, t2: cos_half.complement() / (cos_half + 1.0) }
-    }
+/// The cosine `scale` (C² - `square`).
+#[inline(always)]
+pub fn zero_at<R: Real>(scale: R, square: R) -> Zero<R> {
+    let (zero, one) = (R::from(0.0), R::from(1.0));
+    let cos_half = square.max(zero).min(one).sqrt();
+    let t2 = cos_half.complement() / (cos_half + 1.0);
+    Zero { scale, square, cos_half, t2, slope: scale * 2.0 / (t2 + 1.0) }
+}
 
-    /// The cosine at an azimuth whose t² is `rest` below that of the zero.
-    #[inline(always)]
-    pub(super) fn at(&self, azimuth: Azimuth<R>, rest: R) -> R {
-        let Azimuth { share, cos_half, .. } = azimuth;
-        let difference = rest * 2.0 * share / (self.t2 + 1.0);
-        let between = difference * (cos_half + self.cos_half);
-        let all_around = cos_half * cos_half - self.square;
-        self.scale * R::from(0.0).select_below(self.square, between, all_around)
-    }
+/// The place at tan²(φ/4) = `t2`.
+#[inline(always)]
+pub fn azimuth_at<R: Real>(t2: R) -> Azimuth<R> {
+    let share = (t2 + 1.0).recip();
+    Azimuth { share, cos_half: t2.complement() * share, t2 }
+}
+
+/// The cosine at an azimuth whose t² is `rest` below that of the zero.
+#[inline(always)]
+pub fn cosine_at<R: Real>(zero: Zero<R>, azimuth: Azimuth<R>, rest: R) -> R {
+    let Azimuth { share, cos_half, .. } = azimuth;
+    let between = zero.slope * (rest * share) * (cos_half + zero.cos_half);
+    let all_around = zero.scale * (cos_half * cos_half - zero.square);
+    R::from(0.0).select_below(zero.square, between, all_around)
 }
 
 /// The integral over the azimuths up to t² = `t2`, of either side of the plane; `part` is given how
 /// far t² is below.
 #[inline(always)]
-pub(super) fn interval<R: Real>(t2: R, nodes: &[Node], part: impl Fn(Azimuth<R>, R) -> R) -> R {
+pub fn interval<R: Real>(t2: R, nodes: &[Node], part: impl Fn(Azimuth<R>, R) -> R) -> R {
     let mut sum = R::from(0.0);
     if !t2.any(|t2| t2 > 0.0) {
         return sum;
     }
     for node in nodes {
         let u2 = node.at * node.at;
-        let azimuth = Azimuth::new(t2 * u2);
+        let azimuth = azimuth_at(t2 * u2);
         sum = sum + azimuth.share * node.weight * part(azimuth, t2 * (1.0 - u2));
     }
     sum * t2.sqrt() * 8.0
@@ -71,7 +89,7 @@ pub(super) fn interval<R: Real>(t2: R, nodes: &[Node], part: impl Fn(Azimuth<R>,
 
 /// The same with the nodes for a root at the end where `root` is above 0, else with the others.
 #[inline(always)]
-pub(super) fn either<R: Real>(
+pub fn either<R: Real>(
     root: R,
     t2: R,
     with_root: &[Node],
@@ -91,12 +109,7 @@ pub(super) fn either<R: Real>(
 
 /// The integral over the azimuths from t² = `from` to `to`.
 #[inline(always)]
-pub(super) fn beyond<R: Real>(
-    from: R,
-    to: R,
-    nodes: &ExitNodes,
-    part: impl Fn(Azimuth<R>) -> R,
-) -> R {
+pub fn beyond<R: Real>(from: R, to: R, nodes: &ExitNodes, part: impl Fn(Azimuth<R>) -> R) -> R {
     let zero = R::from(0.0);
     let length2 = to - from;
     if !length2.any(|length| length > 0.0) {
@@ -110,16 +123,8 @@ pub(super) fn beyond<R: Real>(
         let at = zero.select_below(from, R::from(node.at), R::from(even.at));
         let weight = zero.select_below(from, R::from(node.weight), R::from(even.weight));
         let t = start + length * at;
-        let azimuth = Azimuth::new(t * t);
+        let azimuth = azimuth_at(t * t);
         sum = sum + azimuth.share * weight * part(azimuth);
     }
     zero.select_below(length2, sum * length * 8.0, zero)
-}
-
-impl<R: Real> Azimuth<R> {
-    #[inline(always)]
-    fn new(t2: R) -> Self {
-        let share = (t2 + 1.0).recip();
-        Azimuth { share, cos_half: t2.complement() * share, t2 }
-    }
 }
