@@ -5,6 +5,7 @@
 mod integration;
 pub mod plan;
 
+pub use integration::on_device;
 pub use plan::Plan;
 use plan::{PartPlan, names_of};
 
@@ -29,7 +30,7 @@ use crate::table::claim::{Claim, Stage};
 use crate::table::grid::Grid;
 use crate::table::packed::Packed;
 use crate::table::{self, Table};
-use integration::{Checked, Integration, by_estimator, on_device, sum};
+use integration::{Checked, Integration, by_estimator, sum};
 use std::time::Instant;
 
 /// A baked table, and a report for each part of each of its slices.
@@ -247,7 +248,7 @@ impl PartOfSlice<'_> {
         for (first, band) in self.slice.bands() {
             let points = integration.over(&band, self.slice.progress)?;
             let averages = match part.needs_averages() {
-                true => integration.averages(&band)?,
+                true => integration.averages(&band, &part.averaged())?,
                 false => vec![Vec::new(); band.alphas.len()],
             };
             let (values, error) = self.channels(&integration, &band, &points, &averages);

@@ -28,6 +28,7 @@ use crate::brdf::interface::Interface;
 use crate::brdf::{Diffuse, Fresnel, Microfacet};
 use crate::numeric::ball::Ball;
 use crate::numeric::lanes::Real;
+use std::fmt;
 
 /// A lobe to be integrated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +44,18 @@ pub enum Integrand {
 impl From<Microfacet> for Integrand {
     fn from(lobe: Microfacet) -> Self {
         Integrand::Specular(lobe, Fresnel::Schlick)
+    }
+}
+
+impl fmt::Display for Integrand {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Integrand::Specular(Microfacet { ndf, masking }, fresnel) => {
+                write!(f, "{ndf}, {masking}, {fresnel}")
+            }
+            Integrand::Glass(interface) => write!(f, "glass, {interface}"),
+            Integrand::Diffuse(diffuse) => write!(f, "{diffuse}"),
+        }
     }
 }
 

@@ -116,11 +116,17 @@ impl Lut {
         }
     }
 
-    /// Whether a texel needs the averages over all directions too.
+    /// Whether a texel needs averages over all directions too.
     pub fn needs_averages(&self) -> bool {
+        !self.averaged().is_empty()
+    }
+
+    /// Whose integrals a texel needs averaged over all directions, in the order of the averages.
+    pub fn averaged(&self) -> Vec<Integrand> {
         match self {
-            Lut::Energy(_) => true,
-            Lut::Dfg(_) | Lut::Glass(_) | Lut::Diffuse(_) => false,
+            Lut::Energy(_) => vec![self.integrand()],
+            Lut::Glass(glass) => glass.averaged().into_iter().map(Integrand::Glass).collect(),
+            Lut::Dfg(_) | Lut::Diffuse(_) => Vec::new(),
         }
     }
 
@@ -128,7 +134,7 @@ impl Lut {
     pub fn at_most_one(&self) -> bool {
         match self {
             Lut::Dfg(_) => !self.integrand().may_exceed_one(),
-            Lut::Glass(_) => true,
+            Lut::Glass(glass) => glass.channels() != GlassChannels::Turquin,
             // (1-E)/E and R exceed 1, and so do some diffuse lobes.
             Lut::Energy(_) | Lut::Diffuse(_) => false,
         }
@@ -214,7 +220,7 @@ impl Lut {
         match self {
             Lut::Dfg(dfg) => dfg.values(integrals),
             Lut::Energy(energy) => energy.values(mu, integrals, averages),
-            Lut::Glass(glass) => glass.values(integrals),
+            Lut::Glass(glass) => glass.values(integrals, averages),
             Lut::Diffuse(_) => first(integrals),
         }
     }

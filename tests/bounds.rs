@@ -11,9 +11,7 @@ use common::{Integrator, errors_at, ggx};
 use program::{run, stderr};
 use splitsum::backend::cpu;
 use splitsum::brdf::{Diffuse, Fresnel, Masking, Microfacet, Ndf};
-use splitsum::compare::study::bounds::{
-    Finding, Plan, Search, Specular, check, everything, search,
-};
+use splitsum::compare::study::bounds::{Plan, Search, check, everything, search};
 use splitsum::error::ExitCode;
 use splitsum::integrate::double_exponential::DoubleExponentialRule;
 use splitsum::integrate::errors::Errors;
@@ -26,15 +24,7 @@ use splitsum::units::{SMALLEST_ALPHA, SMALLEST_COSINE};
 /// A search of a few seconds: so many rounds, whatever the time.
 const SHORT: Plan = Plan { seed: 5, starts: 24, steps: 3, rounds: 2, seconds: 0.0 };
 
-fn schlick(lobe: Microfacet) -> Specular {
-    (lobe, Fresnel::Schlick)
-}
-
-fn integrand((lobe, fresnel): Specular) -> Integrand {
-    Integrand::Specular(lobe, fresnel)
-}
-
-fn searched(plan: Plan, rules: &[(Specular, Rule)]) -> Search {
+fn searched(plan: Plan, rules: &[(Integrand, Rule)]) -> Search {
     search(plan, rules, &[], &|_| ()).unwrap()
 }
 
@@ -43,13 +33,11 @@ fn a_short_search_finds_every_bound_kept_with_its_margin() {
     let all = everything();
     let found = searched(SHORT, &all);
     check(&found).unwrap();
-    for &((lobe, fresnel), rule) in
-        all.iter().filter(|(specular, rule)| rule.bound(integrand(*specular)).is_finite())
-    {
-        for integral in fresnel.definition().integrals.iter().map(|integral| integral.name) {
-            let sought = (rule.name, lobe.into(), fresnel, integral);
-            let of = |f: &&Finding| (f.rule, f.lobe, f.fresnel, f.integral) == sought;
-            let finding = found.findings.iter().find(of).unwrap();
+    for &(of, rule) in all.iter().filter(|(of, rule)| rule.bound(*of).is_finite()) {
+        for integral in of.names() {
+            let sought = (rule.name, of, integral);
+            let found = found.findings.iter().find(|f| (f.rule, f.of, f.integral) == sought);
+            let finding = found.unwrap();
             assert!(finding.ratio() <= 1.0 / MARGIN && finding.ratio() > 0.0, "{finding:?}");
         }
     }
@@ -57,7 +45,7 @@ fn a_short_search_finds_every_bound_kept_with_its_margin() {
 
 #[test]
 fn a_search_depends_on_nothing_but_its_seed() {
-    let lobe = schlick(ggx(Masking::HeightCorrelatedApprox));
+    let lobe = Integrand::from(ggx(Masking::HeightCorrelatedApprox));
     let rules = [(lobe, D6144), (lobe, H640)];
     assert_eq!(searched(SHORT, &rules), searched(SHORT, &rules));
     assert_ne!(searched(SHORT, &rules), searched(Plan { seed: 6, ..SHORT }, &rules));
@@ -69,26 +57,26 @@ fn a_bound_that_is_too_small_is_found_out() {
     for rule in [S2304, L4608, D10240, D6144, H640, REFERENCE] {
         // Each is known to err by more than a fiftieth of its bound.
         let small = rule.promising(rule.bound(lobe) / 50.0);
-        let error = check(&searched(SHORT, &[(schlick(lobe), small)])).unwrap_err();
+        let error = check(&searched(SHORT, &[(lobe.into(), small)])).unwrap_err();
         assert_eq!(error.exit_code(), ExitCode::CheckFailed);
         assert!(error.to_string().contains(rule.name), "{error}");
         // The same places with a bound that holds: it is the bound that was found out.
-        check(&searched(SHORT, &[(schlick(lobe), rule.promising(MARGIN * rule.bound(lobe)))]))
+        check(&searched(SHORT, &[(lobe.into(), rule.promising(MARGIN * rule.bound(lobe)))]))
             .unwrap();
     }
     // What is no number keeps no bound: one node has no distance to the next, and gives NaN.
     let mut nothing = D6144.promising(1e300);
     nothing.method = Method::DoubleExponential(DoubleExponentialRule { outer: 1, inner: 1 });
     assert!(cpu::bake_points(lobe, &[(0.5, 0.25)], &nothing).values().iter().all(|v| v.is_nan()));
-    assert!(check(&searched(SHORT, &[(schlick(lobe), nothing)])).is_err());
+    assert!(check(&searched(SHORT, &[(lobe.into(), nothing)])).is_err());
 }
 
 /// The share of its bound by which a rule errs at each of these (n·v, α), in the integral where
 /// that is largest; infinite for what is no number.
-fn shares(specular: Specular, rule: &Rule, places: &[(f64, f64)]) -> Vec<f64> {
-    let at = |rule: &Rule| cpu::bake_points(integrand(specular), places, rule);
+fn shares(of: Integrand, rule: &Rule, places: &[(f64, f64)]) -> Vec<f64> {
+    let at = |rule: &Rule| cpu::bake_points(of, places, rule);
     let (values, truth) = (at(rule), at(&rule.yardstick()));
-    let errors = rule.errors(integrand(specular));
+    let errors = rule.errors(of);
     let pairs = places.iter().zip(values.iter().zip(truth.iter()));
     pairs.map(|(&(_, alpha), (value, truth))| share(&errors, alpha, value, truth)).collect()
 }
@@ -141,23 +129,27 @@ fn places_that_once_broke_a_bound_keep_it_for_every_lobe() {
         (0.0, 1.0),
         (1.0, 1.0),
     ];
-    let bounded =
-        |(specular, rule): &(Specular, Rule)| rule.bound(integrand(*specular)).is_finite();
+    let bounded = |(of, rule): &(Integrand, Rule)| rule.bound(*of).is_finite();
     // Other models than Schlick's know no masking term: one for each distribution will do.
-    let told = |((lobe, fresnel), _): &(Specular, Rule)| {
-        matches!(fresnel, Fresnel::Schlick | Fresnel::SchlickF82)
-            || lobe.masking == lobe.ndf.default_masking()
+    let told = |(of, _): &(Integrand, Rule)| match of {
+        Integrand::Specular(lobe, fresnel) => {
+            matches!(fresnel, Fresnel::Schlick | Fresnel::SchlickF82)
+                || lobe.masking == lobe.ndf.default_masking()
+        }
+        Integrand::Glass(_) | Integrand::Diffuse(_) => true,
     };
-    for (specular, rule) in everything().into_iter().filter(bounded).filter(told) {
-        let places: Vec<(f64, f64)> = places
-            .into_iter()
-            .filter(|&(mu, _)| mu > 0.0 || !specular.0.diverges_at_grazing())
-            .collect();
-        for ((mu, alpha), share) in places.iter().zip(shares(specular, &rule, &places)) {
+    let diverges = |of: Integrand| match of {
+        Integrand::Specular(lobe, _) => lobe.diverges_at_grazing(),
+        Integrand::Glass(_) | Integrand::Diffuse(_) => false,
+    };
+    for (of, rule) in everything().into_iter().filter(bounded).filter(told) {
+        let places: Vec<(f64, f64)> =
+            places.into_iter().filter(|&(mu, _)| mu > 0.0 || !diverges(of)).collect();
+        for ((mu, alpha), share) in places.iter().zip(shares(of, &rule, &places)) {
             let name = rule.name;
             assert!(
                 share <= 1.0 / MARGIN,
-                "{name} of {specular:?} errs by {share} of its bound at ({mu}, {alpha})"
+                "{name} of {of} errs by {share} of its bound at ({mu}, {alpha})"
             );
         }
     }

@@ -7,6 +7,7 @@ use self::glass::Glass;
 use super::Progress;
 use crate::brdf::fresnel::{Basis, with_basis};
 use crate::brdf::{Diffuse, Microfacet};
+use crate::integrate::average::average_nodes_at;
 use crate::integrate::double_exponential::{DoubleExponentialNodes, double_exponential};
 use crate::integrate::half_vectors::{HalfVectorNodes, half_vectors};
 use crate::integrate::interpolant::{Interpolant, InterpolantRule};
@@ -30,6 +31,7 @@ const LANES: usize = F64x8::LANES;
 pub struct Baker {
     /// The rule.
     pub rule: Rule,
+    integrand: Integrand,
     /// The number of integrals at a point.
     count: usize,
     work: Arc<dyn Work>,
@@ -52,7 +54,7 @@ impl Baker {
             Integrand::Glass(interface) => Arc::new(Glass::new(interface, rule)),
             Integrand::Diffuse(diffuse) => Arc::new(ClosedForm { diffuse }),
         };
-        Baker { rule: *rule, count: integrand.count(), work }
+        Baker { rule: *rule, integrand, count: integrand.count(), work }
     }
 
     /// The integrals at every point of the grid, in its order.
@@ -75,6 +77,25 @@ impl Baker {
             });
         }
         field
+    }
+
+    /// The averages over all directions at each of these α.
+    pub fn averages(&self, alphas: &[f64]) -> Field {
+        let nodes: Vec<_> =
+            alphas.iter().map(|&alpha| average_nodes_at(self.integrand, alpha)).collect();
+        let at = |(nodes, &alpha): (&Vec<(f64, f64)>, &f64)| {
+            nodes.iter().map(move |&(mu, _)| (mu, alpha)).collect::<Vec<_>>()
+        };
+        let points: Vec<(f64, f64)> = nodes.iter().zip(alphas).flat_map(at).collect();
+        let integrals = self.bake_points(&points);
+        let mut averages = Field::zeros(self.count, alphas.len());
+        let mut integrals = integrals.iter();
+        for (sums, nodes) in averages.values_mut().chunks_exact_mut(self.count).zip(&nodes) {
+            for (&(_, weight), integrals) in nodes.iter().zip(&mut integrals) {
+                sums.iter_mut().zip(integrals).for_each(|(sum, value)| *sum += weight * value);
+            }
+        }
+        averages
     }
 
     /// The integrals at the named points of the grid.

@@ -56,14 +56,34 @@ impl Integration<'_> {
             .collect()
     }
 
-    /// The averages of each row of a grid.
-    pub fn averages(&mut self, grid: &Grid) -> Result<Vec<Vec<Ball>>> {
+    /// The averages of each row of a grid that these integrands have.
+    pub fn averages(&mut self, grid: &Grid, averaged: &[Integrand]) -> Result<Vec<Vec<Ball>>> {
+        if let Integrand::Glass(_) = self.integrand {
+            return Ok(self.averages_of_glass(grid, averaged));
+        }
         let nodes = average_nodes();
         let directions = grid.at_directions(nodes.iter().map(|node| node.0).collect());
         let averages = averages(&nodes, &self.over(&directions, &|_| ())?);
         let error = average_error(self.integrand);
         let row = |(average, &alpha): (&[f64], &f64)| self.within_bound(alpha, average, error);
         Ok(averages.iter().zip(&grid.alphas).map(row).collect())
+    }
+
+    /// The same of glass, whose directions vary with roughness: by the CPU.
+    fn averages_of_glass(&self, grid: &Grid, averaged: &[Integrand]) -> Vec<Vec<Ball>> {
+        let mut averages = vec![Vec::new(); grid.alphas.len()];
+        for &integrand in averaged {
+            let rule = self.baker.rule;
+            let (errors, more) = (rule.errors(integrand), average_error(integrand));
+            let values = Baker::new(integrand, &rule).averages(&grid.alphas);
+            for ((row, values), &alpha) in averages.iter_mut().zip(values.iter()).zip(&grid.alphas)
+            {
+                let errors = errors.at(alpha, values);
+                let ball = |(&value, error): (&f64, f64)| Ball { value, error: error + more };
+                row.extend(values.iter().zip(errors).map(ball));
+            }
+        }
+        averages
     }
 
     /// Integrates over a grid, and checks what comes out.
@@ -105,7 +125,7 @@ pub(super) fn sum(so_far: Option<f64>, next: Option<f64>) -> Option<f64> {
 }
 
 /// The integrals of a specular lobe or of an interface by a device.
-pub(super) fn on_device(
+pub fn on_device(
     gpu: &Gpu,
     integrand: Integrand,
     grid: &Grid,

@@ -174,7 +174,7 @@ fn device_rule(request: &Request, part: &Part) -> std::result::Result<Rule, Comp
         }
         Accuracy::Rule(rule) if rule.runs_on_device() => Ok(rule),
         Accuracy::Rule(rule) => {
-            let expected = "one that a device can run: beginning with h, or of glass g640 to g1792";
+            let expected = "one that a device can run: beginning with h, or of glass g520 to g2240";
             on_cpu("rule", expected, rule.name)
         }
     }
@@ -208,7 +208,7 @@ fn seconds_of_first(request: &Request, part: &Part, rules: &[Rule]) -> f64 {
 /// Points of a slice at which a rule integrates: its texels, and the directions of its averages.
 pub(super) fn points(request: &Request, part: &Part) -> usize {
     let grid = request.grid();
-    let directions = if part.needs_averages() { average_nodes().len() } else { 0 };
+    let directions = part.averaged().len() * average_nodes().len();
     grid.len() + grid.alphas.len() * directions
 }
 

@@ -14,7 +14,9 @@ mod schlick_f82;
 mod schlick_power;
 
 pub use conductor::{Conductor, conductor_reflectance};
-pub use dielectric::{Dielectric, SMALLEST_ROOT, dielectric_reflectance, reflectance_from};
+pub use dielectric::{
+    Dielectric, SMALLEST_ROOT, average_dielectric, dielectric_reflectance, reflectance_from,
+};
 pub use schlick::{Schlick, average_schlick, schlick_complement, schlick_weight, schlick_weights};
 pub use schlick_f82::{SchlickF82, schlick_f82_weights};
 pub use schlick_power::{SchlickPower, schlick_power_weights};
@@ -186,6 +188,8 @@ impl Fresnel {
             dielectric(1.05),
             dielectric(1.5),
             dielectric(4.0),
+            dielectric(12.0),
+            dielectric(100.0),
             conductor(0.05, 4.483),
             conductor(1.38, 1.914),
             conductor(0.01, 0.5),

@@ -7,7 +7,7 @@
 //!
 //! E = ∫ D(h) (c/μ) F G₂(μ, x) dω_h for reflection, with 1 - F for F for transmission.
 
-use super::fresnel::{Basis, Dielectric};
+use super::fresnel::{Basis, Dielectric, average_dielectric};
 use super::masking::{height_correlated, separable};
 use super::{Masking, Microfacet, Ndf};
 use crate::choice::{Choice, choice, words};
@@ -15,6 +15,8 @@ use crate::error::{Error, Result};
 use crate::numeric::ball::Ball;
 use crate::numeric::lanes::Real;
 use crate::numeric::special::log_beta;
+use crate::units::short;
+use std::fmt;
 
 /// The side of an interface from which it is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +25,16 @@ pub enum Side {
     Outside,
     /// From the medium, η = 1/n.
     Inside,
+}
+
+impl Side {
+    /// The other one.
+    pub fn other(self) -> Self {
+        match self {
+            Side::Outside => Side::Inside,
+            Side::Inside => Side::Outside,
+        }
+    }
 }
 
 choice!(Side, "side", {
@@ -62,7 +74,7 @@ const DISTRIBUTIONS: [Ndf; 2] = [Ndf::Ggx, Ndf::Beckmann];
 const MASKINGS: [Masking; 2] = [Masking::HeightCorrelated, Masking::Separable];
 
 impl Interface {
-    /// The interface to a medium with index of refraction `ior`, 1 to 4; an error where the lobe
+    /// The interface to a medium with index of refraction `ior`, 1 to 100; an error where the lobe
     /// has no Smith term of its own.
     pub fn new(
         lobe: Microfacet,
@@ -81,6 +93,25 @@ impl Interface {
             return Err(Error::bad_input("masking of glass", expected, got, cure));
         }
         Ok(Interface { lobe, medium: Dielectric::new(ior)?, side, transmission })
+    }
+
+    /// Interfaces of every kind, with indices at which rules err most: what bounds are searched
+    /// for.
+    pub fn samples() -> Vec<Self> {
+        let mut samples = Vec::new();
+        for (i, ior) in
+            [1.000_001, 1.005, 1.05, 1.33, 1.5, 4.0, 12.0, 100.0].into_iter().enumerate()
+        {
+            for (j, side) in Side::ALL.iter().enumerate() {
+                // Every kind with two of the indices.
+                for (k, ndf) in DISTRIBUTIONS.into_iter().enumerate() {
+                    let lobe = Microfacet { ndf, masking: MASKINGS[(i + k) % 2] };
+                    let transmission = TransmissionMasking::ALL[(i + j * k) % 3];
+                    samples.extend(Interface::new(lobe, ior, *side, transmission));
+                }
+            }
+        }
+        samples
     }
 
     /// The same interface seen from this side.
@@ -133,6 +164,18 @@ impl Interface {
     /// The cosine of the critical angle; 0 on the outside, which has none.
     pub fn critical(self) -> f64 {
         (-self.k()).max(0.0).sqrt()
+    }
+
+    /// F over all directions, F_avg = 2 ∫ F c dc: from inside 1 - (1 - F_avg)/n² (Duntley 1942).
+    pub fn average_reflectance(self) -> Ball {
+        let outside = average_dielectric(self.medium);
+        match self.side {
+            Side::Outside => outside,
+            Side::Inside => {
+                let (one, n) = (Ball::exact(1.0), Ball::exact(self.ior()));
+                one - (one - outside) / (n * n)
+            }
+        }
     }
 
     /// R and T where they are known to their last digits, each with the bound of its error.
@@ -218,6 +261,14 @@ impl Interface {
             TransmissionMasking::Separable => separable(x, mu, area_l, area_v),
             TransmissionMasking::Beta => beta(x, mu, area_l, area_v),
         }
+    }
+}
+
+impl fmt::Display for Interface {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Microfacet { ndf, masking } = self.lobe;
+        let (transmission, side) = (self.transmission, self.side);
+        write!(f, "{ndf}, {masking}, {transmission}, n = {}, {side}", short(self.ior()))
     }
 }
 

@@ -111,10 +111,10 @@ impl Averages {
         &self.balls[row * self.count..][..self.count]
     }
 
-    /// Sets the averages of a row.
-    pub fn set(&mut self, row: usize, averages: impl Iterator<Item = Ball>) {
+    /// Sets averages of a row from the one with this index on.
+    pub fn set(&mut self, row: usize, first: usize, averages: impl Iterator<Item = Ball>) {
         let balls = &mut self.balls[row * self.count..][..self.count];
-        balls.iter_mut().zip(averages).for_each(|(ball, average)| *ball = average);
+        balls[first..].iter_mut().zip(averages).for_each(|(ball, average)| *ball = average);
     }
 }
 

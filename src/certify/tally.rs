@@ -97,7 +97,8 @@ impl Tally {
 /// The error of a channel whose formula leaves no bound of its error.
 pub fn unbounded() -> Error {
     let got = "a channel that divides by what may be 0 within the integral's error";
-    let cure = "give a smaller --tolerance, or an --f0 farther from 1";
+    let cure = "give a smaller --tolerance, or an --f0 farther from 1, or raise the \
+                min of the axis of roughness";
     Error::bad_input("accuracy", "a bound of every value's error", got, cure)
 }
 

@@ -15,12 +15,11 @@ use super::tally::Tally;
 use crate::backend::Progress;
 use crate::backend::cpu::Baker;
 use crate::error::{Error, Result};
-use crate::integrate::average::{average_error, average_nodes, averages as row_averages};
+use crate::integrate::average::average_error;
 use crate::integrate::errors::Errors;
 use crate::integrate::rule::Rule;
 use crate::integrate::{Field, Integrand};
 use crate::numeric::ball::Ball;
-use crate::table::grid::Grid;
 use rayon::prelude::*;
 
 /// Texels that pass through the second stage though the first has decided them, so that one checks
@@ -251,28 +250,30 @@ impl Run<'_> {
         rows
     }
 
-    /// The averages of rows by a rule with the bounds of their errors; zeros where none are needed.
+    /// The averages of rows by a rule with the bounds of their errors; none where none are needed.
     fn averages(&self, baker: &Baker, rows: &[usize], margin: Option<Rule>) -> Result<Averages> {
-        let (grid, integrand) = (self.task.grid, self.integrand());
-        let mut averages = Averages::zeros(integrand.count(), grid.alphas.len());
-        if !self.task.lut.needs_averages() {
-            return Ok(averages);
-        }
-        let nodes = average_nodes();
-        let alphas = rows.iter().map(|&row| grid.alphas[row]).collect();
-        let directions = Grid::of(nodes.iter().map(|node| node.0).collect(), alphas);
-        let integrals = baker.bake(&directions, &|_| ());
-        let (errors, margin) =
-            (baker.rule.errors(integrand), margin.map(|margin| margin.errors(integrand)));
-        for (values, &row) in row_averages(&nodes, &integrals).iter().zip(rows) {
-            let alpha = grid.alphas[row];
-            let of_rule = errors.at(alpha, values);
-            let of_margin = margin.map_or(Default::default(), |margin| margin.at(alpha, values));
-            let ball = |(k, &value): (usize, &f64)| {
-                let error = of_rule[k] + average_error(integrand) + MARGIN * of_margin[k];
-                Ball { value, error }
-            };
-            averages.set(row, values.iter().enumerate().map(ball));
+        let grid = self.task.grid;
+        let averaged = self.task.lut.averaged();
+        let count = averaged.iter().map(|integrand| integrand.count()).sum();
+        let mut averages = Averages::zeros(count, grid.alphas.len());
+        let alphas: Vec<f64> = rows.iter().map(|&row| grid.alphas[row]).collect();
+        let mut first = 0;
+        for integrand in averaged {
+            let own = integrand == self.integrand();
+            let baker = if own { baker } else { &Baker::new(integrand, &baker.rule) };
+            let (errors, margin) =
+                (baker.rule.errors(integrand), margin.map(|margin| margin.errors(integrand)));
+            for ((values, &row), &alpha) in baker.averages(&alphas).iter().zip(rows).zip(&alphas) {
+                let of_rule = errors.at(alpha, values);
+                let of_margin =
+                    margin.map_or(Default::default(), |margin| margin.at(alpha, values));
+                let ball = |(k, &value): (usize, &f64)| {
+                    let error = of_rule[k] + average_error(integrand) + MARGIN * of_margin[k];
+                    Ball { value, error }
+                };
+                averages.set(row, first, values.iter().enumerate().map(ball));
+            }
+            first += integrand.count();
         }
         Ok(averages)
     }

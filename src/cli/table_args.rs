@@ -64,7 +64,7 @@ pub struct TableArgs {
         allow_hyphen_values = true
     )]
     f0: Option<Numbers>,
-    /// Index of refraction of glass, from 1 to 4, several of which are slices; of the split of
+    /// Index of refraction of glass, from 1 to 100, several of which are slices; of the split of
     /// energy instead of F0: F0 = ((1-n)/(1+n))^2 [default of glass: 1.5]
     #[arg(long, value_name = "N[,N...]", conflicts_with = "z", allow_hyphen_values = true)]
     ior: Option<Numbers>,

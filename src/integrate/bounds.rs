@@ -5,7 +5,7 @@
 //! A new distribution needs an arm of [`columns`] and the constants that it names: [`NONE`] for
 //! rules that it is not to use.
 
-use crate::brdf::interface::{Interface, TransmissionMasking};
+use crate::brdf::interface::{Interface, Side, TransmissionMasking};
 use crate::brdf::{Masking, Microfacet, Ndf};
 
 /// Below this α (roughness 0.07) Charlie's ring lies so near the horizon that the reference keeps
@@ -90,15 +90,15 @@ pub struct Columns {
     /// Interpolated.
     pub s2304: Bound,
     /// Glass.
-    pub g140: Bound,
+    pub g112: Bound,
     /// Glass.
-    pub g640: Bound,
+    pub g520: Bound,
     /// Glass.
-    pub g1152: Bound,
+    pub g864: Bound,
     /// Glass.
-    pub g1792: Bound,
+    pub g2240: Bound,
     /// Glass.
-    pub g3840: Bound,
+    pub g4536: Bound,
 }
 
 /// The bounds for a lobe at an α; for Charlie they are wider below [`CHARLIE_LIMIT`].
@@ -219,61 +219,67 @@ const SMOOTH: Columns = Columns {
     l4608: NONE,
     s640: NONE,
     s2304: NONE,
-    g140: NONE,
-    g640: NONE,
-    g1152: NONE,
-    g1792: NONE,
-    g3840: NONE,
+    g112: NONE,
+    g520: NONE,
+    g864: NONE,
+    g2240: NONE,
+    g4536: NONE,
 };
 
 /// The bounds for a rough interface.
-pub const fn glass_columns(interface: Interface) -> &'static Columns {
-    match (interface.transmission(), interface.lobe().ndf) {
-        (TransmissionMasking::Beta, _) => &GLASS_BETA,
-        (_, Ndf::Beckmann) => &GLASS_BECKMANN,
-        _ => &GLASS,
+pub fn glass_columns(interface: Interface) -> &'static Columns {
+    match (interface.transmission(), interface.lobe().ndf, interface.side()) {
+        (TransmissionMasking::Beta, _, _) => &GLASS_BETA,
+        (_, Ndf::Beckmann, _) => &GLASS_BECKMANN,
+        (_, _, Side::Outside) => &GLASS,
+        (_, _, Side::Inside) => &GLASS_INSIDE,
     }
 }
 
 const GLASS: Columns = Columns {
-    g140: all(2e-3),
-    g640: all(1.2e-5),
-    g1152: sharp(1.5e-6, 6e-4, 2e-11),
-    g1792: all(6e-7),
-    g3840: sharp(1.2e-8, 1e-4, 1e-12),
-    reference: all(3e-12),
+    g112: all(2e-3),
+    g520: all(1e-5),
+    g864: all(1.5e-6),
+    g2240: all(1e-7),
+    g4536: all(4e-9),
+    reference: all(1e-12),
     ..WITHOUT_GLASS
 };
 
+/// Far below the critical angle T spans ten decades.
+const GLASS_INSIDE: Columns =
+    Columns { g864: sharp(1.5e-6, 6e-4, 2e-11), g4536: sharp(4e-9, 1e-4, 1e-12), ..GLASS };
+
 /// Gaussian tails end within a piece, which few nodes do not follow.
 const GLASS_BECKMANN: Columns = Columns {
-    g140: all(8e-3),
-    g640: all(5e-4),
-    g1152: all(1e-4),
-    g1792: all(1e-6),
-    g3840: all(1e-7),
-    reference: all(3e-12),
+    g112: all(8e-3),
+    g520: all(5e-4),
+    g864: all(1e-4),
+    g2240: all(1e-6),
+    g4536: all(1e-7),
+    reference: all(1e-12),
     ..WITHOUT_GLASS
 };
 
 /// The beta function falls like a power of n·l that is no whole number, which no rule resolves.
 const GLASS_BETA: Columns = Columns {
-    g140: all(2e-2),
-    g640: all(5e-4),
-    g1152: all(1e-4),
-    g1792: all(4e-5),
-    g3840: all(8e-6),
+    g112: all(2e-2),
+    g520: all(5e-4),
+    g864: all(1e-4),
+    g2240: all(4e-5),
+    g4536: all(8e-6),
     reference: all(3e-12),
     ..WITHOUT_GLASS
 };
 
-/// What the layer of an index of refraction near 1 adds for a rough interface.
+/// What the layer of an index of refraction near 1, or that of a large one, adds for a rough
+/// interface.
 pub const GLASS_LAYER: Columns = Columns {
-    g140: all(1e-3),
-    g640: all(3e-5),
-    g1152: all(1e-5),
-    g1792: all(3e-6),
-    g3840: all(6e-7),
+    g112: all(1e-3),
+    g520: all(1e-4),
+    g864: all(3e-5),
+    g2240: all(8e-6),
+    g4536: all(1.3e-6),
     reference: all(1e-12),
     ..WITHOUT_GLASS
 };

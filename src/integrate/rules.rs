@@ -44,58 +44,64 @@ pub(super) const FINER_REFERENCE: Rule =
     double_exponential("reference", [240, 220], |bounds| bounds.reference);
 
 /// Glass, the cheapest.
-pub const G140: Rule = glass_rule(
-    "g140",
+pub const G112: Rule = glass_rule(
+    "g112",
     GlassRule {
-        outside: [Counts::few([7, 5, 1]); 2],
-        inside: [Counts::few([7, 5, 3]), Counts::few([7, 5, 1])],
+        outside: [Counts::few([7, 4, 1]), Counts::few([7, 4, 1])],
+        inside: [Counts::few([7, 4, 3]), Counts::few([7, 4, 1])],
     },
-    |bounds| bounds.g140,
+    |bounds| bounds.g112,
 );
 /// Glass.
-pub const G640: Rule = glass_rule(
-    "g640",
+pub const G520: Rule = glass_rule(
+    "g520",
     GlassRule {
-        outside: [Counts::crowded([16, 10, 1], Power::Two); 2],
-        inside: [Counts::crowded([14, 9, 7], Power::Two), Counts::crowded([14, 9, 1], Power::Two)],
+        outside: [Counts::crowded([20, 7, 1], Power::Two), Counts::crowded([20, 6, 1], Power::Two)],
+        inside: [Counts::crowded([14, 9, 7], Power::Two), Counts::crowded([14, 7, 1], Power::Two)],
     },
-    |bounds| bounds.g640,
+    |bounds| bounds.g520,
 );
 /// Glass.
-pub const G1152: Rule = glass_rule(
-    "g1152",
+pub const G864: Rule = glass_rule(
+    "g864",
     GlassRule {
-        outside: [Counts::crowded([24, 12, 1], Power::Two); 2],
+        outside: [Counts::crowded([27, 9, 1], Power::Two), Counts::crowded([27, 7, 1], Power::Two)],
         inside: [
-            Counts::crowded([20, 14, 10], Power::Two),
-            Counts::crowded([16, 10, 1], Power::Two),
+            Counts::crowded([18, 12, 10], Power::Two),
+            Counts::crowded([18, 11, 1], Power::Two),
         ],
     },
-    |bounds| bounds.g1152,
+    |bounds| bounds.g864,
 );
-/// Glass.
-pub const G1792: Rule = glass_rule(
-    "g1792",
+/// Glass, the finest for devices.
+pub const G2240: Rule = glass_rule(
+    "g2240",
     GlassRule {
-        outside: [Counts::crowded([28, 16, 1], Power::Two); 2],
+        outside: [
+            Counts::crowded([40, 16, 1], Power::Two),
+            Counts::crowded([40, 12, 1], Power::Two),
+        ],
         inside: [
-            Counts::crowded([28, 20, 14], Power::Two),
-            Counts::crowded([24, 14, 1], Power::Two),
+            Counts::crowded([26, 18, 15], Power::Two),
+            Counts::crowded([26, 15, 1], Power::Two),
         ],
     },
-    |bounds| bounds.g1792,
+    |bounds| bounds.g2240,
 );
 /// Glass: the last stage of certification before the reference.
-pub const G3840: Rule = glass_rule(
-    "g3840",
+pub const G4536: Rule = glass_rule(
+    "g4536",
     GlassRule {
-        outside: [Counts::crowded([40, 24, 1], Power::Four); 2],
+        outside: [
+            Counts::crowded([54, 26, 1], Power::Four),
+            Counts::crowded([54, 16, 1], Power::Four),
+        ],
         inside: [
-            Counts::crowded([48, 32, 26], Power::Four),
-            Counts::crowded([40, 24, 1], Power::Four),
+            Counts::crowded([46, 32, 28], Power::Four),
+            Counts::crowded([46, 24, 1], Power::Four),
         ],
     },
-    |bounds| bounds.g3840,
+    |bounds| bounds.g4536,
 );
 
 /// Over directions of light, the cheapest.
@@ -128,11 +134,11 @@ pub const RULES: [Rule; 20] = [
     L4608,
     S640,
     S2304,
-    G140,
-    G640,
-    G1152,
-    G1792,
-    G3840,
+    G112,
+    G520,
+    G864,
+    G2240,
+    G4536,
 ];
 
 /// The nodes of [`H288`].

@@ -13,7 +13,8 @@
 //! Every cosine that vanishes somewhere is written by the distance in p from where it does:
 //! sin(θ_j - θ) = 2q/(1+q²) with q = (p_j - p)/(1 + p_j p).
 //!
-//! In ψ, z = tan(ψ/2) = k sinh r, k being the scale of D's peak.
+//! In ψ, tan(ψ/2) = k sinh r on a full circle, and sin(ψ/2) = k sinh r on a part of one, k being
+//! the scale of D's peak.
 //!
 //! *Reflection.* n·l = x = μ cos 2θ + sv sin 2θ cos ψ > 0: all ψ below θ_1 = (π/2 - θ_v)/2, up to
 //! ψ_m below θ_2 = (π/2 + θ_v)/2.
@@ -198,12 +199,11 @@ impl<R: Real> View<R> {
             let x = x.max(R::from(0.0)).min(R::from(1.0));
             self.lobe.cosine_visibility_at(x, self.mu, self.area_v, self.alpha)
         };
-        let circle = |z2: R| visible(low + swing / (z2 + 1.0));
-        let arc = |z2: R, to_end: R| {
-            let partly = -low * to_end / (z2 + 1.0);
-            visible(low.select_below(R::from(0.0), partly, low + swing / (z2 + 1.0)))
+        let light = |across: R, to_end: R| {
+            let partly = low.select_below(R::from(0.0), swing * to_end, low + swing * across);
+            visible(partly)
         };
-        let inner = self.azimuth(place.p, s, nodes, R::from(0.0), (low, high), circle, arc);
+        let inner = self.azimuth(place.p, s, nodes, R::from(0.0), (low, high), light);
         c * s * f * 4.0 * inner
     }
 
@@ -216,7 +216,7 @@ impl<R: Real> View<R> {
         let g = self.root2(place, c, s).max(zero).sqrt();
         let (t, p) = ((g + c).max(tiny), (eta * eta * c + g).max(tiny));
         let passed = c * g * 2.0 * ((t * t).recip() + eta * eta / (p * p));
-        // h·n = upright + 2 sv s/(1 + z²), from cos(θ - θ_v) down.
+        // h·n = upright + 2 sv s cos²(ψ/2), from cos(θ - θ_v) down.
         let upright = place.sine_to(self.at.upright);
         let top = (place.p * place.p).complement() / (place.p * place.p + 1.0);
         let turn = k / t;
@@ -232,20 +232,18 @@ impl<R: Real> View<R> {
             let x = ((mu + turn * nh) / eta).max(zero).min(R::from(1.0));
             interface.transmitted_visibility(x, mu, self.area_v, self.alpha)
         };
-        let circle = |z2: R| visible(upright + sv * s * 2.0 / (z2 + 1.0));
-        let arc = |z2: R, to_end: R| {
-            let partly = -upright * to_end / (z2 + 1.0);
-            visible(upright.select_below(zero, partly, upright + sv * s * 2.0 / (z2 + 1.0)))
+        let swing = sv * s * 2.0;
+        let light = |across: R, to_end: R| {
+            visible(upright.select_below(zero, swing * to_end, upright + swing * across))
         };
-        let inner = self.azimuth(place.p, s, nodes, first, (upright, top), circle, arc);
+        let inner = self.azimuth(place.p, s, nodes, first, (upright, top), light);
         c * s * passed * 4.0 * inner
     }
 
-    /// ∫ D (G₂/(4μ)) dψ over the circle where z² = tan²(ψ/2) is beyond `first`, and where low is
-    /// negative below high/-low. `circle`: G₂/(4μ) at z², and `arc`: at z² with its distance from
-    /// that end.
+    /// ∫ D (G₂/(4μ)) dψ over the circle where tan²(ψ/2) is beyond `first`, and where low is negative
+    /// below high/-low. `visible`: G₂/(4μ) at cos²(ψ/2), with the distance of sin²(ψ/2) from that
+    /// end.
     #[inline(always)]
-    #[allow(clippy::too_many_arguments, reason = "an integrand, its domain, its nodes")]
     fn azimuth(
         &self,
         p: R,
@@ -253,43 +251,46 @@ impl<R: Real> View<R> {
         nodes: &ViewPolarNodes,
         first: R,
         (low, high): (R, R),
-        circle: impl Fn(R) -> R,
-        arc: impl Fn(R, R) -> R,
+        visible: impl Fn(R, R) -> R,
     ) -> R {
-        let (zero, tiny) = (R::from(0.0), R::from(f64::MIN_POSITIVE));
+        let (zero, one, tiny) = (R::from(0.0), R::from(1.0), R::from(f64::MIN_POSITIVE));
         let w2 = self.width * self.width;
         let plane = p * p / (p * p + 1.0);
         let across = s * self.sv;
         // The tail of GGX is as wide as it is far from the peak.
         let (peak, tail) = match self.lobe.ndf {
-            Ndf::Ggx => (w2 * 0.25 + plane, R::from(1.0)),
+            Ndf::Ggx => (w2 * 0.25 + plane, one),
             // sin²(ψ/2) where the lobe ends.
-            _ => (w2 * 0.25, (w2 * (TAIL_DEPTH / 4.0) / across.max(tiny)).min(R::from(1.0))),
+            _ => (w2 * 0.25, (w2 * (TAIL_DEPTH / 4.0) / across.max(tiny)).min(one)),
         };
         let k2 = peak / (peak + across);
         let k = k2.sqrt();
-        let density = |z2: R| {
+        let density = |sine2: R| {
             // sin²(θ_h/2)
-            let half = plane + across * z2 / (z2 + 1.0);
+            let half = plane + across * sine2;
             let ch = (half * 2.0).complement().max(R::from(1e-35));
-            let t = half * half.complement() * 4.0 / (ch * ch);
-            self.lobe.ndf.slope_density(t / w2, self.alpha) / (w2 * ch * ch * ch * ch)
+            let ch2 = ch * ch;
+            let t = half * half.complement() * 4.0 / (ch2 * w2);
+            self.lobe.ndf.slope_density(t, self.alpha) / (w2 * (ch2 * ch2))
         };
         let cut = (-low).max(first).max(tail.complement());
-        let whole = cut.select_below(tiny, R::from(1.0), zero);
+        let whole = cut.select_below(tiny, one, zero);
         let mut sum = zero;
         if whole.any(|whole| whole > 0.0) {
             for &(z, weight) in &nodes.circle {
                 let z2 = k2 * (z * z);
-                sum = sum + density(z2) * circle(z2) * weight / (z2 + 1.0);
+                let cosine2 = (z2 + 1.0).recip();
+                sum = sum + density(z2 * cosine2) * visible(cosine2, cosine2) * (cosine2 * weight);
             }
             sum = sum * k;
         }
         if whole.any(|whole| whole == 0.0) {
-            let last2 = low.select_below(zero, high / (-low), k2 * 1e40).max(zero);
-            let to2 = last2.min(tail / tail.complement().max(R::from(1e-40)));
-            let (from, to, beyond) = (first.max(zero).sqrt(), to2.sqrt(), last2 - to2);
-            let asinh = |z: R| z.zip(k, |z, k| libm::asinh(z / k));
+            // cos²(ψ/2) at the last azimuth.
+            let last = zero.select_below(low, zero, low / (low - high)).max(zero).min(one);
+            let to2 = last.complement().min(tail);
+            let (from, to) = ((first / (first + 1.0)).max(zero).sqrt(), to2.sqrt());
+            let beyond = last.complement() - to2;
+            let asinh = |y: R| y.zip(k, |y, k| libm::asinh(y / k));
             let (r0, r1) = (asinh(from), asinh(to));
             let length = r1 - r0;
             let mut part = zero;
@@ -300,15 +301,16 @@ impl<R: Real> View<R> {
                 let (sinh, cosh) = ((e - e.recip()) * 0.5, (e + e.recip()) * 0.5);
                 // sinh r1 - sinh r, without cancellation.
                 let gap = half * 2.0 * (half * sinh + (half * half + 1.0).sqrt() * cosh);
-                let z = k * sinh;
-                let (z2, rest) = (z * z, beyond + k * gap * (z + to));
-                let dz = length * node.weight * k * cosh;
-                part = part + density(z2) * arc(z2, rest) * dz / (z2 + 1.0);
+                let y = k * sinh;
+                let rest = beyond + k * gap * (y + to);
+                let cosine2 = (last + rest).max(tiny);
+                let dy = length * node.weight * k * cosh;
+                part = part + density(y * y) * visible(cosine2, rest) * dy / cosine2.sqrt();
             }
             part = zero.select_below(length, part, zero);
             sum = zero.select_below(whole, sum, part);
         }
-        // Either side of the plane, and dψ = 2 dz/(1 + z²).
+        // Either side of the plane, and dψ = 2 d(tan)/(1 + tan²) = 2 d(sin)/cos.
         sum * 4.0
     }
 }

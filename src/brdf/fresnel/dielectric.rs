@@ -14,6 +14,7 @@ use super::{Basis, Definition, Integral};
 use crate::error::{Error, Result};
 use crate::numeric::ball::Ball;
 use crate::numeric::lanes::Real;
+use crate::numeric::quadrature::gauss_legendre::{Node, gauss_legendre};
 use crate::units::short;
 
 /// Fresnel's equations for light from the thinner side, η = n ≥ 1.
@@ -22,16 +23,16 @@ pub struct Dielectric {
     pub(super) ior: f64,
 }
 
-/// The indices of refraction for which the rules' bounds were searched.
-const INDICES: std::ops::RangeInclusive<f64> = 1.0..=4.0;
+/// The indices of refraction for which the rules' bounds were searched: Cycles' tables end at 99.5.
+const INDICES: std::ops::RangeInclusive<f64> = 1.0..=100.0;
 
 impl Dielectric {
-    /// The interface to a medium with index of refraction n from 1 to 4.
+    /// The interface to a medium with index of refraction n from 1 to 100.
     pub fn new(ior: f64) -> Result<Self> {
         if INDICES.contains(&ior) {
             return Ok(Dielectric { ior });
         }
-        let (expected, cure) = ("1 to 4", "give an index in that range");
+        let (expected, cure) = ("1 to 100", "give an index in that range");
         Err(Error::bad_input("index of refraction", expected, short(ior), cure))
     }
 
@@ -50,7 +51,7 @@ impl Basis<1> for Dielectric {
     const DEFINITION: Definition = Definition {
         word: "dielectric",
         usage: "dielectric:IOR",
-        about: "Fresnel's equations for an index of refraction from 1 to 4",
+        about: "Fresnel's equations for an index of refraction from 1 to 100",
         formula: "Fresnel's equations for unpolarised light, a dielectric with index of refraction \
                   n",
         albedo: "E = R",
@@ -73,7 +74,8 @@ impl Basis<1> for Dielectric {
     }
 
     fn has_layer(self) -> bool {
-        self.ior < 1.01
+        // F rises within √(n² - 1) of grazing incidence, and falls to 0 and rises within 1/n.
+        self.ior < 1.01 || self.ior > 4.0
     }
 
     fn wgsl_arguments(self) -> String {
@@ -118,3 +120,30 @@ pub fn reflectance_from<R: Real>(c: R, g2: R, s2: R, k: R) -> R {
     let (zero, one) = (R::from(0.0), R::from(1.0));
     zero.select_below(g2, f, k.select_below(zero, one, zero))
 }
+
+/// F over all directions of diffuse light from the thinner side, F_avg = 2 ∫ F c dc.
+///
+/// Its closed form (Walsh 1926; Duntley 1942) cancels: at n = 1.0001 nothing of f32 and a millionth
+/// of f64 are left. With c = √k sinh u the integrand is smooth whatever n.
+pub fn average_dielectric(medium: Dielectric) -> Ball {
+    if medium.ior == 1.0 {
+        return Ball::exact(0.0);
+    }
+    let k = medium.k();
+    let root = k.sqrt();
+    let end = libm::asinh(1.0 / root);
+    let at = |node: &Node| {
+        let u = end * node.at;
+        let c = (root * libm::sinh(u)).min(1.0);
+        let f = dielectric_reflectance(c, k);
+        2.0 * f * c * root * libm::cosh(u) * end * node.weight
+    };
+    let value: f64 = gauss_legendre(AVERAGE_NODES).iter().map(at).sum();
+    Ball { value, error: AVERAGE_ERROR * value }
+}
+
+/// Nodes of the average.
+const AVERAGE_NODES: usize = 48;
+
+/// Its relative error, from n = 1 + 1e-9 to 100: beside twice as many nodes it was 4e-15.
+const AVERAGE_ERROR: f64 = 1e-14;

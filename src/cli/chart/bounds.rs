@@ -1,7 +1,6 @@
 //! `splitsum chart bounds`
 
 use super::{Devices, MeasuredArgs};
-use crate::brdf::fresnel::{Definition, KINDS};
 use crate::cli::{output, print, standard_output};
 use crate::compare::study::Machine;
 use crate::compare::study::bounds::{Finding, Plan, Search, check, everything, search};
@@ -56,7 +55,7 @@ fn page(found: &Search, devices: &Devices, arguments: &BoundsArgs) -> String {
     let worst = found.findings.iter().map(Finding::ratio).fold(0.0, f64::max);
     let mut text = format!(
         "# How far bounds are from being broken\n\nWritten by `splitsum chart bounds --seconds {} \
-         --seed {}` (splitsum {}; the CPU{names}). For every rule, lobe and channel it climbs \
+         --seed {}` (splitsum {}; the CPU{names}). For every rule, integrand and channel it climbs \
          towards the largest error over the bound, from starts crowded at every edge and corner of \
          the domain; the truth is the reference, and the reference's own truth one with half again \
          as many nodes. {} points were tried. The largest share is {worst:.2}; the command fails \
@@ -65,14 +64,14 @@ fn page(found: &Search, devices: &Devices, arguments: &BoundsArgs) -> String {
         arguments.seconds, arguments.seed, machine.version, found.points
     );
     for group in found.findings.chunk_by(|a, b| (a.rule, &a.device) == (b.rule, &b.device)) {
-        for integral in integrals() {
+        for integral in integrals(group) {
             let of_integral = group.iter().filter(|finding| finding.integral == integral);
             text += &of_integral
                 .max_by(|a, b| a.ratio().total_cmp(&b.ratio()))
                 .map_or(String::new(), row);
         }
     }
-    text += &format!("\n## Every lobe and channel beyond a quarter\n\n{HEAD}");
+    text += &format!("\n## Everything beyond a quarter\n\n{HEAD}");
     text + &found
         .findings
         .iter()
@@ -81,10 +80,9 @@ fn page(found: &Search, devices: &Devices, arguments: &BoundsArgs) -> String {
         .collect::<String>()
 }
 
-/// The names of the integrals of all Fresnel models.
-fn integrals() -> Vec<&'static str> {
-    let of_kind = |kind: &Definition| kind.integrals.iter().map(|integral| integral.name);
-    let mut names: Vec<&str> = KINDS.iter().flat_map(of_kind).collect();
+/// The names of the integrals of these findings.
+fn integrals(group: &[Finding]) -> Vec<&'static str> {
+    let mut names: Vec<&str> = group.iter().map(|finding| finding.integral).collect();
     names.sort_unstable();
     names.dedup();
     names
@@ -93,16 +91,16 @@ fn integrals() -> Vec<&'static str> {
 /// Smaller shares of a bound are left out of the second table.
 const SHOWN: f64 = 0.25;
 
-const HEAD: &str = "| rule | by | lobe | integral | n·v | 1 - n·v | α | error | bound | \
+const HEAD: &str = "| rule | by | of | integral | n·v | 1 - n·v | α | error | bound | \
                     error/bound |\n\
                     | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
 
 fn row(finding: &Finding) -> String {
-    let Finding { rule, device, lobe, fresnel, integral, mu, alpha, error, bound } = finding;
+    let Finding { rule, device, of, integral, mu, alpha, error, bound } = finding;
     let by = device.as_deref().map_or("CPU", |device| device.split(" (").next().unwrap_or(device));
     let (rest, ratio) = (1.0 - mu, finding.ratio());
     format!(
-        "| `{rule}` | {by} | {lobe}, {fresnel} | {integral} | {mu:.3e} | {rest:.1e} | {alpha:.3e} \
+        "| `{rule}` | {by} | {of} | {integral} | {mu:.3e} | {rest:.1e} | {alpha:.3e} \
          | {error:.1e} | {bound:.1e} | {ratio:.2} |\n"
     )
 }

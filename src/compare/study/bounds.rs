@@ -1,21 +1,22 @@
 //! Where rules err most, measured by their bounds: a search that climbs towards the largest
-//! error/bound of every rule, lobe and channel, on the CPU and on devices. Whoever changes a rule
+//! error/bound of every rule, integrand and channel, on the CPU and on devices. Whoever changes a rule
 //! or a bound learns from it what the bound has to be.
 //!
-//! A hunt has one lobe, the rules that are measured against one truth, and the places where each
+//! A hunt has one integrand, the rules that are measured against one truth, and the places where each
 //! has been worst. A round tries fresh starts and places near the worst ones, every rule at every
 //! place.
 
 mod places;
 
 use self::places::{Place, Places};
-use super::{Lobe, Share, timed};
-use crate::backend::{Gpu, bake, cpu};
-use crate::brdf::fresnel::Integral;
+use super::{Share, timed};
+use crate::backend::{Gpu, cpu};
+use crate::bake::on_device;
+use crate::brdf::interface::Interface;
 use crate::brdf::{Fresnel, Microfacet};
 use crate::error::{Error, Result};
 use crate::integrate::Integrand;
-use crate::integrate::rule::{MARGIN, Method, Rule};
+use crate::integrate::rule::{MARGIN, Rule};
 use crate::integrate::rules::RULES;
 use crate::table::grid::Grid;
 use std::time::Instant;
@@ -42,10 +43,8 @@ pub struct Finding {
     pub rule: &'static str,
     /// The device that ran it in f32; none for the CPU in f64.
     pub device: Option<String>,
-    /// The lobe.
-    pub lobe: Lobe,
-    /// Its Fresnel model.
-    pub fresnel: Fresnel,
+    /// The integrand.
+    pub of: Integrand,
     /// The name of the integral.
     pub integral: &'static str,
     /// n·v
@@ -63,7 +62,7 @@ pub struct Finding {
 pub struct Search {
     /// A rule after the other, by the CPU, then by each device.
     pub findings: Vec<Finding>,
-    /// Points at which rules were held against the truth, every lobe's counted.
+    /// Points at which rules were held against the truth, every integrand's counted.
     pub points: usize,
 }
 
@@ -86,26 +85,25 @@ impl Finding {
     }
 }
 
-/// A lobe with its Fresnel model.
-pub type Specular = (Microfacet, Fresnel);
+/// Every rule with every lobe, Fresnel model and interface that it serves for, but for the closed
+/// forms, which are exact.
+pub fn everything() -> Vec<(Integrand, Rule)> {
+    let with_every_lobe = |fresnel| Microfacet::all().map(move |lobe| (lobe, fresnel));
+    let lobes = Fresnel::samples().into_iter().flat_map(with_every_lobe);
+    let lobes = lobes.map(|(lobe, fresnel)| Integrand::Specular(lobe, fresnel));
+    let interfaces = Interface::samples().into_iter().map(Integrand::Glass);
+    lobes.chain(interfaces).flat_map(with_rules).collect()
+}
 
-/// Every rule with every lobe and Fresnel model that it serves for, but for the closed forms, which
-/// are exact.
-pub fn everything() -> Vec<(Specular, Rule)> {
-    let mut all = Vec::new();
-    for fresnel in Fresnel::samples() {
-        for lobe in Microfacet::all() {
-            let serves = |rule: &Rule| rule.applies_to(Integrand::Specular(lobe, fresnel));
-            all.extend(RULES.into_iter().filter(serves).map(|rule| ((lobe, fresnel), rule)));
-        }
-    }
-    all
+/// Every rule that serves for an integrand.
+pub fn with_rules(of: Integrand) -> impl Iterator<Item = (Integrand, Rule)> {
+    RULES.into_iter().filter(move |rule| rule.applies_to(of)).map(move |rule| (of, rule))
 }
 
 /// Searches the rules on the CPU, and those that run there on the devices.
 pub fn search(
     plan: Plan,
-    rules: &[(Specular, Rule)],
+    rules: &[(Integrand, Rule)],
     devices: &[Gpu],
     share: Share,
 ) -> Result<Search> {
@@ -135,9 +133,9 @@ pub fn check(search: &Search) -> Result<()> {
     let worst = search.findings.iter().max_by(|a, b| a.ratio().total_cmp(&b.ratio()));
     match worst.filter(|worst| !worst.holds()) {
         None => Ok(()),
-        Some(Finding { rule, device, lobe, fresnel, integral, mu, alpha, error, bound }) => {
+        Some(Finding { rule, device, of, integral, mu, alpha, error, bound }) => {
             Err(Error::CheckFailed(format!(
-                "{rule} of {lobe}, {fresnel} by {} errs by {error:e} in {integral} at n.v = \
+                "{rule} of {of} by {} errs by {error:e} in {integral} at n.v = \
                  {mu:e}, alpha = {alpha:e}, where {bound:e} is promised, which has to hold with a \
                  margin of {MARGIN}; mend the rule, or raise its bound",
                 device.as_deref().unwrap_or("the CPU")
@@ -146,35 +144,30 @@ pub fn check(search: &Search) -> Result<()> {
     }
 }
 
-/// A hunt for each lobe on the CPU, one for the rule that is measured by another truth, one for the
+/// A hunt for each integrand on the CPU, one for the rule that is measured by another truth, one for the
 /// devices.
-fn hunts<'a>(seed: u64, rules: &[(Specular, Rule)], devices: &'a [Gpu]) -> Vec<Hunt<'a>> {
+fn hunts<'a>(seed: u64, rules: &[(Integrand, Rule)], devices: &'a [Gpu]) -> Vec<Hunt<'a>> {
     let mut hunts: Vec<Hunt> = Vec::new();
-    for &(lobe, rule) in rules {
+    for &(of, rule) in rules {
         let runners =
             std::iter::once(None).chain(devices.iter().filter(|_| rule.runs_on_device()).map(Some));
         for gpu in runners {
             let truth = rule.yardstick();
             let same = |hunt: &&mut Hunt| {
-                hunt.lobe == lobe && hunt.truth == truth && hunt.on_devices == gpu.is_some()
+                hunt.of == of && hunt.truth == truth && hunt.on_devices == gpu.is_some()
             };
-            let track = |integral: &Integral| Track {
-                rule,
-                gpu,
-                integral: integral.name,
-                worst: Vec::new(),
-            };
-            let tracks: Vec<Track> = lobe.1.definition().integrals.iter().map(track).collect();
+            let track = |integral| Track { rule, gpu, integral, worst: Vec::new() };
+            let tracks: Vec<Track> = of.names().into_iter().map(track).collect();
             match hunts.iter_mut().find(same) {
                 Some(hunt) => hunt.tracks.extend(tracks),
                 None => {
                     // Odd multiples of a large number keep the hunts' sequences apart.
                     let places = Places::new(
-                        lobe.0,
+                        of,
                         seed ^ (2 * hunts.len() as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15),
                     );
                     hunts.push(Hunt {
-                        lobe,
+                        of,
                         truth,
                         on_devices: gpu.is_some(),
                         tracks,
@@ -194,16 +187,16 @@ fn found(hunts: Vec<Hunt>) -> Search {
     let mut search = Search::default();
     for hunt in hunts {
         search.points += hunt.points;
-        search.findings.extend(hunt.tracks.iter().filter_map(|track| track.finding(hunt.lobe)));
+        search.findings.extend(hunt.tracks.iter().filter_map(|track| track.finding(hunt.of)));
     }
     let place = |f: &Finding| (f.device.clone(), RULES.iter().position(|rule| rule.name == f.rule));
     search.findings.sort_by_key(place);
     search
 }
 
-/// One lobe, one truth.
+/// One integrand, one truth.
 struct Hunt<'a> {
-    lobe: Specular,
+    of: Integrand,
     truth: Rule,
     on_devices: bool,
     /// A rule's integrals stand one after the other.
@@ -269,14 +262,14 @@ impl Hunt<'_> {
                 .collect();
         }
         let pairs: Vec<(f64, f64)> = points.iter().map(|place| (place.mu, place.alpha)).collect();
-        let integrand = Integrand::Specular(self.lobe.0, self.lobe.1);
+        let integrand = self.of;
         let truth = cpu::bake_points(integrand, &pairs, &self.truth);
         self.points += points.len();
         for tracks in self.tracks.chunks_exact_mut(integrand.count()) {
             let (rule, gpu) = (tracks[0].rule, tracks[0].gpu);
-            let values = match (gpu, &grid, rule.method) {
-                (Some(gpu), Some(grid), Method::HalfVectors(nodes)) => {
-                    bake(gpu, self.lobe, grid, &nodes, &|_| ())?.integrals
+            let values = match (gpu, &grid) {
+                (Some(gpu), Some(grid)) => {
+                    on_device(gpu, integrand, grid, &rule, &|_| ())?.integrals
                 }
                 _ => cpu::bake_points(integrand, &pairs, &rule),
             };
@@ -350,14 +343,13 @@ impl Track<'_> {
         self.worst.truncate(SUMMITS);
     }
 
-    fn finding(&self, (lobe, fresnel): Specular) -> Option<Finding> {
+    fn finding(&self, of: Integrand) -> Option<Finding> {
         let &Worst { place: Place { mu, alpha }, error, bound } = self.worst.first()?;
         let device = self.gpu.map(|gpu| gpu.info().name.clone());
         Some(Finding {
             rule: self.rule.name,
             device,
-            lobe: lobe.into(),
-            fresnel,
+            of,
             integral: self.integral,
             mu,
             alpha,

@@ -1,7 +1,7 @@
 //! Places of the domain, crowded at every edge and corner and where rules change, and steps from
 //! one to the next.
 
-use crate::brdf::Microfacet;
+use crate::integrate::Integrand;
 use crate::integrate::interpolant::SMOOTHEST;
 use crate::integrate::rule::CHARLIE_LIMIT;
 use crate::units::{LARGEST_ALPHA, SMALLEST_ALPHA, SMALLEST_COSINE};
@@ -22,6 +22,8 @@ pub struct Places {
     least_mu: f64,
     /// The largest α of a texel.
     most_alpha: f64,
+    /// The cosine of the critical angle of glass seen from inside, else 0.
+    critical: f64,
 }
 
 /// 1 - p at the upper end of a coordinate, apart from p = 1 itself: the last number below 1.
@@ -81,13 +83,19 @@ impl Place {
 }
 
 impl Places {
-    /// The places of a lobe's domain.
-    pub fn new(lobe: Microfacet, seed: u64) -> Self {
-        Places {
-            random: Random(seed),
-            least_mu: if lobe.diverges_at_grazing() { SMALLEST_COSINE } else { 0.0 },
-            most_alpha: lobe.ndf.most_alpha(),
-        }
+    /// The places of an integrand's domain.
+    pub fn new(of: Integrand, seed: u64) -> Self {
+        let (diverges, most_alpha, critical) = match of {
+            Integrand::Specular(lobe, _) => {
+                (lobe.diverges_at_grazing(), lobe.ndf.most_alpha(), 0.0)
+            }
+            Integrand::Glass(interface) => {
+                (false, interface.lobe().ndf.most_alpha(), interface.critical())
+            }
+            Integrand::Diffuse(_) => (false, 1.0, 0.0),
+        };
+        let least_mu = if diverges { SMALLEST_COSINE } else { 0.0 };
+        Places { random: Random(seed), least_mu, most_alpha, critical }
     }
 
     fn at(&self, x: f64, y: f64) -> Place {
@@ -110,6 +118,12 @@ impl Places {
         let (u, r) = (self.random.next(), self.random.next());
         let (crowded, few) = (self.at(x, y), libm::exp10(self.random.between(-3.0, 3.0)));
         match i % 8 {
+            // The critical angle, and twice its cosine, where it meets the horizon.
+            1..3 if self.critical > 0.0 => {
+                let at = if i % 8 == 1 { self.critical } else { 2.0 * self.critical };
+                let off = libm::exp10(self.random.between(-15.0, -0.3)).copysign(u - 0.5);
+                self.within((at * (1.0 + off)).max(0.0), crowded.alpha)
+            }
             0..3 => crowded,
             3 => self.within(u, self.most_alpha * r * r),
             4 => self.within(crowded.mu, self.most_alpha * r * r),
