@@ -68,7 +68,8 @@ impl Plan<'_> {
         let (mut parts, mut reports, mut rounding) = (Vec::new(), Vec::new(), 0.0f64);
         let slices = packings.iter().zip(values.bytes_mut().chunks_exact_mut(size));
         for (index, (packing, bytes)) in slices.enumerate() {
-            let slice = Slice { plan: self, packing, parts: &self.slices[index], progress };
+            let grid = &request.grids()[index];
+            let slice = Slice { plan: self, packing, grid, parts: &self.slices[index], progress };
             let (outcomes, coarser) = slice.bake(bytes)?;
             rounding = rounding.max(request.precision().half_step() + coarser);
             let several = outcomes.len() > 1;
@@ -100,6 +101,7 @@ impl Plan<'_> {
 struct Slice<'a> {
     plan: &'a Plan<'a>,
     packing: &'a Packing,
+    grid: &'a Grid,
     /// The plans of its parts.
     parts: &'a [PartPlan],
     progress: Progress<'a>,
@@ -123,7 +125,7 @@ impl Slice<'_> {
     fn bake(&self, bytes: &mut [u8]) -> Result<(Vec<(Part, Outcome)>, f64)> {
         let request = self.plan.request;
         let precision = request.precision();
-        let mut sheet = Sheet::new(self.packing, request.grid(), precision, bytes);
+        let mut sheet = Sheet::new(self.packing, self.grid, precision, bytes);
         let mut outcomes = Vec::new();
         for (part, plan) in self.packing.parts().into_iter().zip(self.parts) {
             let on = PartOfSlice { slice: self, part: &part, plan };
@@ -152,9 +154,14 @@ impl Slice<'_> {
         Ok((outcomes, coarser))
     }
 
+    /// Points of a band that are measured against the reference.
+    fn measured_points(&self) -> usize {
+        MEASURED.div_ceil(self.bands().count() * self.plan.slices.len())
+    }
+
     /// The bands of the grid, each with the row of the grid at which it begins.
     fn bands(&self) -> impl Iterator<Item = (usize, Grid)> + use<'_> {
-        let grid = self.plan.request.grid();
+        let grid = self.grid;
         let rows = (BAND / grid.mus.len()).max(1);
         (0..grid.alphas.len()).step_by(rows).map(move |first| (first, grid.band(first, rows)))
     }
@@ -193,7 +200,7 @@ impl PartOfSlice<'_> {
     fn certified(&self, sheet: &mut Sheet) -> Result<Outcome> {
         let (request, part) = (self.slice.plan.request, self.part);
         let (device, progress) = (self.device(), self.slice.progress);
-        let whole = task(request, part, request.grid());
+        let whole = task(request, part, self.slice.grid);
         let (mut seconds, mut device_seconds, mut tally) =
             (Seconds::default(), None, Tally::default());
         let start = Instant::now();
@@ -240,7 +247,7 @@ impl PartOfSlice<'_> {
             integrand,
             baker: Baker::new(integrand, &rule),
             gpu: self.device().map(|(gpu, _)| gpu),
-            measured_points: MEASURED.div_ceil(self.slice.bands().count()),
+            measured_points: self.slice.measured_points(),
             checked: Checked::default(),
         };
         integration.checked.seconds.integrate += start.elapsed().as_secs_f64();
@@ -258,7 +265,7 @@ impl PartOfSlice<'_> {
         if !bound.is_finite() {
             return Err(unbounded());
         }
-        let (on_device, grid) = (integration.gpu.is_some(), request.grid());
+        let (on_device, grid) = (integration.gpu.is_some(), self.slice.grid);
         let Checked { cross_check, measured, seconds, device_seconds } = integration.checked;
         let computed = self.computed(device_seconds);
         let claim = Claim::Uncertified {
@@ -284,7 +291,7 @@ impl PartOfSlice<'_> {
         let start = Instant::now();
         let (mut measured, mut seconds) = (Deviation::default(), Seconds::default());
         let points = estimator.points();
-        let measured_points = MEASURED.div_ceil(self.slice.bands().count());
+        let measured_points = self.slice.measured_points();
         for (first, band) in self.slice.bands() {
             let field = by_estimator(integrand, &band, &points, self.slice.progress);
             let value = |(i, integrals): (usize, &[f64])| {

@@ -2,6 +2,8 @@
 //! energy gives back 1 at every angle and roughness; this computes what a combination of specular
 //! lobe, multiple scattering, diffuse base and split gives back instead.
 
+pub mod coat;
+
 use crate::backend::cpu;
 use crate::brdf::fresnel::{average_schlick, schlick_complement};
 use crate::brdf::{Diffuse, Microfacet};

@@ -14,7 +14,7 @@ pub use extras::Extra;
 use crate::choice::choice;
 use crate::error::{Error, Result};
 use crate::table::Layout;
-use crate::table::axis::Words;
+use crate::table::axis::{Parameter, Words};
 use crate::table::precision::Precision;
 use crate::table::slices::SlicesAs;
 use fields::{Field, fields};
@@ -160,6 +160,13 @@ impl Lookup<'_> {
 
     /// The numbers that a lookup gives.
     fn fields(&self) -> Result<Vec<Field>> {
+        let Layout { x, y, .. } = self.layout;
+        if [x, y].iter().any(|axis| axis.spec().parameter == Parameter::Critical) {
+            let got = "n.v centred on the critical angle";
+            let cure =
+                "write it by hand after the formula in the metadata, or lay nov along the axis";
+            return Err(Error::bad_input("lookup", "an axis of n.v itself", got, cure));
+        }
         let fields = fields(self.layout);
         if fields.is_empty() {
             let got = "constants and parameters alone";

@@ -55,7 +55,7 @@ impl Lut {
     pub fn integrand(&self) -> Integrand {
         match self {
             Lut::Dfg(dfg) => Integrand::Specular(dfg.lobe(), dfg.fresnel()),
-            Lut::Energy(energy) => energy.lobe().into(),
+            Lut::Energy(energy) => Integrand::Specular(energy.lobe(), energy.fresnel()),
             Lut::Glass(glass) => Integrand::Glass(glass.interface()),
             Lut::Diffuse(diffuse) => Integrand::Diffuse(*diffuse),
         }
@@ -69,11 +69,12 @@ impl Lut {
         }
     }
 
-    /// The index of refraction of a table for one: glass.
+    /// The index of refraction of a table for one: glass, and the split of energy at an interface.
     pub fn ior(&self) -> Option<f64> {
         match self {
             Lut::Glass(glass) => Some(glass.interface().ior()),
-            Lut::Dfg(_) | Lut::Energy(_) | Lut::Diffuse(_) => None,
+            Lut::Energy(energy) => energy.ior(),
+            Lut::Dfg(_) | Lut::Diffuse(_) => None,
         }
     }
 
@@ -92,10 +93,8 @@ impl Lut {
     /// The F0 of a table for one: a split of energy. The others serve every F0.
     pub fn f0(&self) -> Option<f64> {
         match self {
-            Lut::Energy(energy) if energy.channels() == EnergyChannels::Split => {
-                Some(energy.f0().get())
-            }
-            Lut::Energy(_) | Lut::Dfg(_) | Lut::Glass(_) | Lut::Diffuse(_) => None,
+            Lut::Energy(energy) => energy.f0(),
+            Lut::Dfg(_) | Lut::Glass(_) | Lut::Diffuse(_) => None,
         }
     }
 
@@ -106,11 +105,14 @@ impl Lut {
             (Lut::Energy(energy), Parameter::F0) if self.f0().is_some() => {
                 Energy::new(energy.lobe(), F0::new(value)?, energy.channels()).map(Lut::Energy)
             }
-            (Lut::Glass(glass), Parameter::Ior) => glass.at_ior(value).map(Lut::Glass),
+            (Lut::Energy(energy), Parameter::Ior) if energy.channels() == EnergyChannels::Split => {
+                Energy::of_interface(energy.lobe(), value).map(Lut::Energy)
+            }
+            (Lut::Glass(glass), Parameter::Ior) => glass.at_index(value).map(Lut::Glass),
             (Lut::Dfg(_) | Lut::Energy(_) | Lut::Glass(_) | Lut::Diffuse(_), _) => {
                 let expected = "a parameter that the table varies with";
                 let cure =
-                    "bake the split of energy for f0 or glass for ior, or leave the slices out";
+                    "bake the split of energy for f0 or ior, or glass for ior, or leave it out";
                 Err(Error::bad_input("slices", expected, parameter.word(), cure))
             }
         }
@@ -147,7 +149,7 @@ impl Lut {
             Lut::Energy(energy) => {
                 let named =
                     |&(name, meaning): &(&'static str, &'static str)| Channel::new(name, meaning);
-                energy.channels().list().iter().map(named).collect()
+                energy.list().iter().map(named).collect()
             }
             Lut::Glass(glass) => glass.list(),
             Lut::Diffuse(_) => vec![Channel::new(ALBEDO.0, ALBEDO.1)],
@@ -194,6 +196,7 @@ impl Lut {
                     ior: interface.ior(),
                     side: interface.side().word(),
                     transmission_masking: interface.transmission().word(),
+                    average_fresnel: interface.average_reflectance().value,
                 }),
                 fresnel: Some("Fresnel's equations for unpolarised light".into()),
                 f0: None,

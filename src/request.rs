@@ -59,7 +59,8 @@ pub struct Request {
     /// What a texel of each slice holds; one of a table without slices. None is empty.
     packings: Vec<Packing>,
     layout: Layout,
-    grid: Grid,
+    /// The parameters of each slice's texels.
+    grids: Vec<Grid>,
     accuracy: Accuracy,
     precision: Precision,
 }
@@ -76,7 +77,8 @@ impl Request {
         accuracy: Accuracy,
         precision: Precision,
     ) -> Result<Self> {
-        let (packing, grid) = (packing.into(), Grid::new(&x, &y)?);
+        let packing = packing.into();
+        let grid = Grid::about(&x, &y, packing.critical())?;
         for lut in packing.luts() {
             match lut.integrand() {
                 Integrand::Specular(lobe, _) => {
@@ -90,7 +92,7 @@ impl Request {
         check_accuracy(&packing, &grid, accuracy, precision)?;
         check_channels(&packing, precision)?;
         let layout = Layout { x, y, slices: None, channels: packing.channels() };
-        Ok(Request { packings: vec![packing], layout, grid, accuracy, precision })
+        Ok(Request { packings: vec![packing], layout, grids: vec![grid], accuracy, precision })
     }
 
     /// The table that every engine needs: x = n·v, y = perceptual roughness, texel centres;
@@ -127,8 +129,11 @@ impl Request {
     }
 
     fn in_slices(mut self, packings: Vec<Packing>, slices: Slices) -> Result<Self> {
-        for packing in &packings {
-            check_accuracy(packing, &self.grid, self.accuracy, self.precision)?;
+        let Layout { x, y, .. } = &self.layout;
+        let grid = |packing: &Packing| Grid::about(x, y, packing.critical());
+        self.grids = packings.iter().map(grid).collect::<Result<_>>()?;
+        for (packing, grid) in packings.iter().zip(&self.grids) {
+            check_accuracy(packing, grid, self.accuracy, self.precision)?;
         }
         self.packings = packings;
         self.layout.slices = Some(slices);
@@ -138,7 +143,7 @@ impl Request {
     /// The same table with another accuracy and storage.
     pub fn stored(&self, accuracy: Accuracy, precision: Precision) -> Result<Self> {
         for packing in &self.packings {
-            check_accuracy(packing, &self.grid, accuracy, precision)?;
+            check_accuracy(packing, self.grid(), accuracy, precision)?;
         }
         check_channels(self.packing(), precision)?;
         Ok(Request { accuracy, precision, ..self.clone() })
@@ -159,9 +164,15 @@ impl Request {
         &self.layout
     }
 
-    /// The parameters of a slice's texels.
+    /// The parameters of the first slice's texels; those of the others differ where n·v is centred
+    /// on the critical angle.
     pub fn grid(&self) -> &Grid {
-        &self.grid
+        &self.grids[0]
+    }
+
+    /// The parameters of the texels of each slice; of a table without slices one's.
+    pub fn grids(&self) -> &[Grid] {
+        &self.grids
     }
 
     /// The accuracy.
@@ -176,7 +187,7 @@ impl Request {
 
     /// Texels of all slices.
     pub fn texels(&self) -> usize {
-        self.grid.len() * self.layout.slice_count()
+        self.grid().len() * self.layout.slice_count()
     }
 
     /// Bytes of the table.

@@ -82,6 +82,8 @@ pub struct InterfaceText {
     pub side: &'static str,
     /// Masking of transmitted light.
     pub transmission_masking: &'static str,
+    /// F over all directions on that side.
+    pub average_fresnel: f64,
 }
 
 /// The origin and the claim of the channels that are integrated together.

@@ -91,7 +91,8 @@ impl Lookup<'_> {
 /// The place of a texel: the root of some mappings, a complement, and a product and a sum.
 fn texel(axis: &Axis) -> usize {
     let root = match axis.spec().mapping {
-        Mapping::Linear => 0,
+        // Those of an index of refraction are no axis of an approximation.
+        Mapping::Linear | Mapping::SqrtF0 | Mapping::Piecewise => 0,
         Mapping::Sqrt => ROOT,
         Mapping::SqrtComplement => 1 + ROOT,
     };

@@ -7,7 +7,7 @@
 //!
 //! E = ∫ D(h) (c/μ) F G₂(μ, x) dω_h for reflection, with 1 - F for F for transmission.
 
-use super::fresnel::{Basis, Dielectric, average_dielectric};
+use super::fresnel::{Dielectric, average_dielectric};
 use super::masking::{height_correlated, separable};
 use super::{Masking, Microfacet, Ndf};
 use crate::choice::{Choice, choice, words};
@@ -245,11 +245,6 @@ impl Interface {
             TransmissionMasking::Separable => Some((c + c) / (c + area)),
             TransmissionMasking::Beta => None,
         }
-    }
-
-    /// Whether F changes faster at grazing incidence than rules resolve.
-    pub fn has_layer(self) -> bool {
-        self.medium.has_layer()
     }
 
     /// G₂(μ, x)/(4μ) of transmitted light at x = -n·l, with the projected area of n·v given.

@@ -1,5 +1,7 @@
 //! `splitsum furnace`
 
+mod coat;
+
 use super::choices::{self, LobeArgs};
 use super::{output, resources, standard_output};
 use crate::brdf::{Diffuse, Masking, Ndf};
@@ -40,15 +42,31 @@ pub struct FurnaceArgs {
         value_parser = choices::of::<Diffuse>()
     )]
     diffuse: Diffuse,
+    /// The formulas for a base below an interface with this index of refraction, 1 to 100, beside each
+    /// other, in the place of those at an F0
+    #[arg(
+        long, value_name = "N", conflicts_with_all = ["multiple_scattering", "diffuse"],
+        allow_hyphen_values = true
+    )]
+    ior: Option<f64>,
+    /// Albedos of that base, with commas between, each from 0 to 1 [default: 1,0.5]
+    #[arg(
+        long,
+        value_name = "RHO[,RHO...]",
+        value_delimiter = ',',
+        requires = "ior",
+        allow_hyphen_values = true
+    )]
+    albedo: Vec<f64>,
     /// Angles and roughnesses, each at i/(N-1), 2 to 1024
     #[arg(
         long, value_name = "N", default_value_t = 64,
         value_parser = clap::value_parser!(u16).range(2..=1024)
     )]
     size: u16,
-    /// Write a picture: a column for each F0, a row for each split; blue where energy is lost,
-    /// orange where it is made, full at 0.25 of the light; in each panel n.v from left to right,
-    /// roughness from top to bottom
+    /// Write a picture: a column for each F0 or albedo, a row for each split or formula; blue where
+    /// energy is lost, orange where it is made, full at 0.25 of the light; in each panel n.v from
+    /// left to right, roughness from top to bottom
     #[arg(short, long, value_name = "FILE.png")]
     output: Option<String>,
     /// Print the report as JSON
@@ -87,10 +105,11 @@ pub fn run(arguments: &FurnaceArgs) -> Result<()> {
     if arguments.json || arguments.output.is_none() {
         standard_output::check()?;
     }
+    if let Some(ior) = arguments.ior {
+        return coat::run(arguments, ior);
+    }
     // The reciprocal split is a lobe of its own, in the place of Lambert's.
     let splits = if material.base == Diffuse::Lambert { Split::ALL } else { &Split::ALL[..2] };
-    let edges = |parameter| AxisSpec { nodes: Nodes::Edges, ..AxisSpec::of(parameter) };
-    let axis = |parameter| Axis::new(edges(parameter), size);
     // A texel has its integral, and of each furnace an energy, what is drawn of it and three bytes
     // of colour; a row those of the directions of its averages.
     let maps = F0S.len() * splits.len();
@@ -99,7 +118,7 @@ pub fn run(arguments: &FurnaceArgs) -> Result<()> {
         None,
         resources::ALLOW,
     )?;
-    let grid = Grid::new(&axis(Parameter::Nov)?, &axis(Parameter::Roughness)?)?;
+    let grid = grid(size)?;
     let rule = Rule::for_cpu(material.lobe, TOLERANCE, grid.len()).unwrap_or(REFERENCE);
     let furnaces = furnaces(material, &F0S, splits, &grid, &rule)?;
     if let Some(name) = &arguments.output {
@@ -115,6 +134,13 @@ pub fn run(arguments: &FurnaceArgs) -> Result<()> {
         furnaces: furnaces.iter().map(line).collect(),
     };
     if arguments.json { super::print_json(&report) } else { super::print(&describe(&report)) }
+}
+
+/// n·v and roughness, each at i/(size - 1).
+fn grid(size: usize) -> Result<Grid> {
+    let edges = |parameter| AxisSpec { nodes: Nodes::Edges, ..AxisSpec::of(parameter) };
+    let axis = |parameter| Axis::new(edges(parameter), size);
+    Grid::new(&axis(Parameter::Nov)?, &axis(Parameter::Roughness)?)
 }
 
 fn describe(report: &Report) -> String {

@@ -19,7 +19,7 @@ use crate::format::encoding::{Notation, Supercompress};
 use crate::format::{Encoding, Format, Style};
 use crate::integrate::rule::Rule;
 use crate::lookup::Language;
-use crate::lut::Packing;
+use crate::lut::{Lut, Packing};
 use crate::request::{Accuracy, DEFAULT_SIZE, Request};
 use crate::table::axis::{Axis, AxisSpec, Parameter};
 use crate::table::precision::Precision;
@@ -64,8 +64,8 @@ pub struct TableArgs {
         allow_hyphen_values = true
     )]
     f0: Option<Numbers>,
-    /// Index of refraction of glass, from 1 to 100, several of which are slices; of the split of
-    /// energy instead of F0: F0 = ((1-n)/(1+n))^2 [default of glass: 1.5]
+    /// Index of refraction from 1 to 100 of glass, and of the split of energy in place of F0, with
+    /// Fresnel's equations; several are slices [default of glass: 1.5]
     #[arg(long, value_name = "N[,N...]", conflicts_with = "z", allow_hyphen_values = true)]
     ior: Option<Numbers>,
     /// Side of glass from which it is seen [default: outside]
@@ -260,7 +260,7 @@ impl TableArgs {
             self.size.as_ref().map_or(Ok((DEFAULT_SIZE, DEFAULT_SIZE, None)), Size::parse)?;
         let (x, y) = self.axes(columns, rows)?;
         let (iors, fresnels) = (self.iors()?, self.fresnels()?);
-        let f0s = self.f0s(&iors)?;
+        let f0s = self.f0s()?;
         let packing = self.family(f0s[0], iors[0], fresnels[0])?;
         self.check_flags_serve(&packing)?;
         let accuracy = accuracy(&packing)?;
@@ -275,18 +275,19 @@ impl TableArgs {
     /// Refuses flags that the family does not follow.
     fn check_flags_serve(&self, packing: &Packing) -> Result<()> {
         let lut = packing.main();
-        let (has_f0, has_ior) = (lut.f0().is_some(), lut.ior().is_some());
+        let has_f0 = lut.f0().is_some();
+        let is_glass = matches!(lut, Lut::Glass(_));
         let got = packing.flags().to_owned();
         if self.f0.is_some() && !has_f0 {
             let cure = "leave it out: no other table depends on F0";
             return Err(Error::bad_input("f0", "the split of energy beside it", got, cure));
         }
-        if self.ior.is_some() && !has_f0 && !has_ior {
+        if self.ior.is_some() && lut.ior().is_none() {
             let cure = "leave it out: no other table depends on it";
             let expected = "glass or the split of energy beside it";
             return Err(Error::bad_input("ior", expected, got, cure));
         }
-        if (self.side.is_some() || self.transmission_masking.is_some()) && !has_ior {
+        if (self.side.is_some() || self.transmission_masking.is_some()) && !is_glass {
             let what = if self.side.is_some() { "side" } else { "transmission-masking" };
             return Err(Error::bad_input(what, "glass beside it", got, "add --lut glass"));
         }
@@ -297,11 +298,11 @@ impl TableArgs {
         let spec = |text: &Option<String>| text.as_deref().map(str::parse::<AxisSpec>).transpose();
         let (x, y) = (spec(&self.x)?, spec(&self.y)?);
         let x = x.unwrap_or_else(|| match y.map(|y| y.parameter) {
-            Some(Parameter::Nov) => AxisSpec::of(Parameter::Roughness),
+            Some(Parameter::Nov | Parameter::Critical) => AxisSpec::of(Parameter::Roughness),
             _ => AxisSpec::of(Parameter::Nov),
         });
         let y = y.unwrap_or_else(|| match x.parameter {
-            Parameter::Nov => AxisSpec::of(Parameter::Roughness),
+            Parameter::Nov | Parameter::Critical => AxisSpec::of(Parameter::Roughness),
             _ => AxisSpec::of(Parameter::Nov),
         });
         Ok((Axis::new(x, columns)?, Axis::new(y, rows)?))

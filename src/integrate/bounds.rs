@@ -92,9 +92,9 @@ pub struct Columns {
     /// Glass.
     pub g112: Bound,
     /// Glass.
-    pub g520: Bound,
+    pub g560: Bound,
     /// Glass.
-    pub g864: Bound,
+    pub g904: Bound,
     /// Glass.
     pub g2240: Bound,
     /// Glass.
@@ -220,8 +220,8 @@ const SMOOTH: Columns = Columns {
     s640: NONE,
     s2304: NONE,
     g112: NONE,
-    g520: NONE,
-    g864: NONE,
+    g560: NONE,
+    g904: NONE,
     g2240: NONE,
     g4536: NONE,
 };
@@ -238,8 +238,8 @@ pub fn glass_columns(interface: Interface) -> &'static Columns {
 
 const GLASS: Columns = Columns {
     g112: all(2e-3),
-    g520: all(1e-5),
-    g864: all(1.5e-6),
+    g560: all(1e-5),
+    g904: all(1.5e-6),
     g2240: all(1e-7),
     g4536: all(4e-9),
     reference: all(1e-12),
@@ -248,13 +248,13 @@ const GLASS: Columns = Columns {
 
 /// Far below the critical angle T spans ten decades.
 const GLASS_INSIDE: Columns =
-    Columns { g864: sharp(1.5e-6, 6e-4, 2e-11), g4536: sharp(4e-9, 1e-4, 1e-12), ..GLASS };
+    Columns { g904: sharp(1.5e-6, 6e-4, 2e-11), g4536: sharp(4e-9, 1e-4, 1e-12), ..GLASS };
 
 /// Gaussian tails end within a piece, which few nodes do not follow.
 const GLASS_BECKMANN: Columns = Columns {
     g112: all(8e-3),
-    g520: all(5e-4),
-    g864: all(1e-4),
+    g560: all(5e-4),
+    g904: all(1e-4),
     g2240: all(1e-6),
     g4536: all(1e-7),
     reference: all(1e-12),
@@ -264,22 +264,40 @@ const GLASS_BECKMANN: Columns = Columns {
 /// The beta function falls like a power of n·l that is no whole number, which no rule resolves.
 const GLASS_BETA: Columns = Columns {
     g112: all(2e-2),
-    g520: all(5e-4),
-    g864: all(1e-4),
+    g560: all(5e-4),
+    g904: all(1e-4),
     g2240: all(4e-5),
     g4536: all(8e-6),
     reference: all(3e-12),
     ..WITHOUT_GLASS
 };
 
-/// What the layer of an index of refraction near 1, or that of a large one, adds for a rough
-/// interface.
-pub const GLASS_LAYER: Columns = Columns {
+/// What a layer adds for a rough interface: where the index is near 1, F falls from 1 within √(n² -
+/// 1) of grazing incidence; where it is large, within 1/n.
+pub fn glass_layer(interface: Interface) -> Option<&'static Columns> {
+    match interface.ior() {
+        ..1.001 | 12.0.. => Some(&GLASS_LAYER),
+        ..1.01 | 4.0.. => Some(&GLASS_WIDE_LAYER),
+        _ => None,
+    }
+}
+
+const GLASS_LAYER: Columns = Columns {
     g112: all(1e-3),
-    g520: all(1e-4),
-    g864: all(3e-5),
+    g560: all(1e-4),
+    g904: all(3e-5),
     g2240: all(8e-6),
     g4536: all(1.3e-6),
+    reference: all(1e-12),
+    ..WITHOUT_GLASS
+};
+
+const GLASS_WIDE_LAYER: Columns = Columns {
+    g112: all(1e-3),
+    g560: all(1e-4),
+    g904: all(3e-5),
+    g2240: all(5e-7),
+    g4536: all(2e-8),
     reference: all(1e-12),
     ..WITHOUT_GLASS
 };

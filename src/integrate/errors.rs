@@ -1,7 +1,7 @@
 //! The bounds of a rule's errors at a point: those of [`super::bounds`], and those of f32 on a
 //! device.
 
-use super::bounds::{Bound, GLASS_LAYER, LAYER, all, columns, glass_columns};
+use super::bounds::{Bound, LAYER, all, columns, glass_columns, glass_layer};
 use super::rule::{Method, Rule};
 use super::{Integrand, scale};
 use crate::brdf::fresnel::MOST_WEIGHTS;
@@ -106,7 +106,7 @@ impl Rule {
             (Integrand::Specular(..) | Integrand::Glass(_), _) if alpha == 0.0 => all(MIRROR),
             (Integrand::Glass(interface), _) => {
                 let bound = (self.column)(glass_columns(interface));
-                if interface.has_layer() { bound.plus((self.column)(&GLASS_LAYER)) } else { bound }
+                glass_layer(interface).map_or(bound, |layer| bound.plus((self.column)(layer)))
             }
             (Integrand::Specular(lobe, fresnel), _) => {
                 let bound = (self.column)(columns(lobe, alpha)).times(fresnel.error_factor());

@@ -3,7 +3,7 @@
 use super::Integrand;
 use super::errors::f32_arithmetic;
 use super::rule::{Method, Rule};
-use super::rules::{FINER_REFERENCE, G520, REFERENCE, RULES};
+use super::rules::{FINER_REFERENCE, G560, REFERENCE, RULES};
 use crate::error::{Error, Result};
 
 impl Rule {
@@ -45,7 +45,7 @@ impl Rule {
         if let Integrand::Glass(_) = integrand {
             // No rule for it is as sharp as that: this one decides four texels in ten, and the
             // finer ones cost twice as much.
-            return Some(G520);
+            return Some(G560);
         }
         let serves = |rule: &Rule| {
             // At α = 1, above the limit below which Charlie's bounds are wider.

@@ -53,25 +53,28 @@ pub const G112: Rule = glass_rule(
     |bounds| bounds.g112,
 );
 /// Glass.
-pub const G520: Rule = glass_rule(
-    "g520",
+pub const G560: Rule = glass_rule(
+    "g560",
     GlassRule {
-        outside: [Counts::crowded([20, 7, 1], Power::Two), Counts::crowded([20, 6, 1], Power::Two)],
+        outside: [Counts::crowded([20, 8, 1], Power::Two), Counts::crowded([20, 6, 1], Power::Two)],
         inside: [Counts::crowded([14, 9, 7], Power::Two), Counts::crowded([14, 7, 1], Power::Two)],
     },
-    |bounds| bounds.g520,
+    |bounds| bounds.g560,
 );
 /// Glass.
-pub const G864: Rule = glass_rule(
-    "g864",
+pub const G904: Rule = glass_rule(
+    "g904",
     GlassRule {
-        outside: [Counts::crowded([27, 9, 1], Power::Two), Counts::crowded([27, 7, 1], Power::Two)],
+        outside: [
+            Counts::crowded([27, 10, 1], Power::Two),
+            Counts::crowded([26, 7, 1], Power::Two),
+        ],
         inside: [
             Counts::crowded([18, 12, 10], Power::Two),
             Counts::crowded([18, 11, 1], Power::Two),
         ],
     },
-    |bounds| bounds.g864,
+    |bounds| bounds.g904,
 );
 /// Glass, the finest for devices.
 pub const G2240: Rule = glass_rule(
@@ -135,8 +138,8 @@ pub const RULES: [Rule; 20] = [
     S640,
     S2304,
     G112,
-    G520,
-    G864,
+    G560,
+    G904,
     G2240,
     G4536,
 ];

@@ -16,7 +16,8 @@ pub fn uv(axis: &Axis, words: &Words) -> String {
 /// The axis's parameter.
 fn parameter(axis: &Axis, words: &Words) -> String {
     match axis.spec().parameter {
-        Parameter::Nov => "nov".to_owned(),
+        // Of the latter there is no lookup: see Lookup.
+        Parameter::Nov | Parameter::Critical => "nov".to_owned(),
         Parameter::Roughness => "roughness".into(),
         Parameter::Alpha => "roughness * roughness".into(),
         Parameter::F0 => "f0".into(),

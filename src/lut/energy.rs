@@ -23,21 +23,42 @@
 //!   both (Shirley et al. 1997; Kelemen and Szirmay-Kalos 2001; Ashikhmin and Shirley 2000
 //!   approximate it by polynomials). It is the product of one factor for each direction,
 //!   (1-S(μ))/√(1-S_avg), over π: that factor is what a texel holds.
+//!
+//! *Between base and interface.* At the interface to a medium of index n, S is that of the exact
+//! equations, and the light that a base of albedo ρ reflects meets the interface from inside, which
+//! sends a share K of it back. A base in a furnace sees diffuse radiance L; by reciprocity the share
+//! that leaves towards v is (1-S(v))/n², so that on average 1 - K = (1-S_avg)/n², without a table of
+//! the inside (Saunderson 1942 for smooth interfaces). Whatever returns meets the base again: what
+//! leaves is 1 + ρK + ρ²K² + … = 1/(1-ρK) times what a base that takes no light back would send, and
+//!
+//! f_d = R(l) R(v) ρ_eff/π, R as in (c), ρ_eff = ρ (1-K)/(1 - ρK).
+//!
+//! Where ρ = 1, so is ρ_eff. Who has measured the colour from outside, ρ_eff, has a base of
+//! ρ = ρ_eff / (1 - K + ρ_eff K): the convention of OpenPBR.
 
 use super::{MOST_CHANNELS, first};
-use crate::brdf::fresnel::schlick_complement;
-use crate::brdf::{Masking, Microfacet};
+use crate::brdf::fresnel::{Basis, Dielectric, schlick_complement};
+use crate::brdf::{Fresnel, Masking, Microfacet};
 use crate::choice::{Choice, choice};
 use crate::error::{Error, Result};
 use crate::numeric::ball::Ball;
 use crate::units::F0;
 
-/// A specular lobe with Schlick's Fresnel, its F0, and the numbers that a texel holds.
+/// A specular lobe, what it reflects, and the numbers that a texel holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Energy {
     lobe: Microfacet,
-    f0: F0,
+    reflectance: Reflectance,
     channels: EnergyChannels,
+}
+
+/// What a lobe above a base reflects.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Reflectance {
+    /// Schlick's approximation from this F0 on.
+    Schlick(F0),
+    /// The interface to a medium.
+    Interface(Dielectric),
 }
 
 /// The numbers that a texel holds.
@@ -80,7 +101,23 @@ impl Energy {
                 cure,
             ));
         }
-        Ok(Energy { lobe, f0, channels })
+        Ok(Energy { lobe, reflectance: Reflectance::Schlick(f0), channels })
+    }
+
+    /// The split of energy at the interface to a medium with index of refraction `ior`, 1 to 100.
+    pub fn of_interface(lobe: Microfacet, ior: f64) -> Result<Self> {
+        let medium = Dielectric::new(ior)?;
+        let split = Energy::new(lobe, F0::new(0.0)?, EnergyChannels::Split)?;
+        if !lobe.takes(Fresnel::Dielectric(medium)) {
+            let (expected, got) = ("one that becomes a mirror, at an interface", lobe.ndf.word());
+            return Err(Error::bad_input(
+                "model",
+                expected,
+                got,
+                "give an F0 in place of the index",
+            ));
+        }
+        Ok(Energy { reflectance: Reflectance::Interface(medium), ..split })
     }
 
     /// The specular lobe.
@@ -88,9 +125,37 @@ impl Energy {
         self.lobe
     }
 
-    /// Its reflectance at normal incidence; only the split depends on it.
-    pub fn f0(&self) -> F0 {
-        self.f0
+    /// Its reflectance at normal incidence in Schlick's approximation; only the split depends on
+    /// it.
+    pub fn f0(&self) -> Option<f64> {
+        match self.reflectance {
+            Reflectance::Schlick(f0) if self.channels == EnergyChannels::Split => Some(f0.get()),
+            Reflectance::Schlick(_) | Reflectance::Interface(_) => None,
+        }
+    }
+
+    /// The index of refraction of the medium below the interface.
+    pub fn ior(&self) -> Option<f64> {
+        match self.reflectance {
+            Reflectance::Schlick(_) => None,
+            Reflectance::Interface(medium) => Some(medium.ior()),
+        }
+    }
+
+    /// The Fresnel model that is integrated.
+    pub fn fresnel(&self) -> Fresnel {
+        match self.reflectance {
+            Reflectance::Schlick(_) => Fresnel::Schlick,
+            Reflectance::Interface(medium) => Fresnel::Dielectric(medium),
+        }
+    }
+
+    /// The channels in order, each with its name and its meaning.
+    pub(super) fn list(&self) -> &'static [(&'static str, &'static str)] {
+        match self.reflectance {
+            Reflectance::Schlick(_) => self.channels.list(),
+            Reflectance::Interface(_) => AT_INTERFACE,
+        }
     }
 
     /// The numbers.
@@ -113,16 +178,48 @@ impl Energy {
             EnergyChannels::Average => first(&[averages[0], averages[1], e(averages)]),
             EnergyChannels::KullaConty => first(&[e(integrals), e(averages)]),
             EnergyChannels::Turquin => first(&[(one - e(integrals)) / e(integrals)]),
-            EnergyChannels::Split => {
-                let f0 = Ball::exact(self.f0.get());
-                let at_f0 = |of: &[Ball]| f0 * of[0] + of[1];
-                let left = one - at_f0(integrals);
-                // 1 - F = 1 - F0 - (1 - F0) (1 - μ)^5.
-                let naive = (one - f0) * schlick_complement(Ball::exact(mu));
-                first(&[naive, left, left / (one - at_f0(averages)).sqrt()])
-            }
+            EnergyChannels::Split => match self.reflectance {
+                Reflectance::Schlick(f0) => {
+                    let f0 = Ball::exact(f0.get());
+                    let at_f0 = |of: &[Ball]| f0 * of[0] + of[1];
+                    let left = one - at_f0(integrals);
+                    // 1 - F = 1 - F0 - (1 - F0) (1 - μ)^5.
+                    let naive = (one - f0) * schlick_complement(Ball::exact(mu));
+                    first(&[naive, left, left / (one - at_f0(averages)).sqrt()])
+                }
+                Reflectance::Interface(medium) => {
+                    let (left, on_average) = (one - integrals[0], one - averages[0]);
+                    let [f] = medium.of_mirror(mu);
+                    let n = Ball::exact(medium.ior());
+                    let back = one - on_average / (n * n);
+                    first(&[one - f, left, left / on_average.sqrt(), back])
+                }
+            },
         }
     }
+}
+
+/// The split at an interface.
+const AT_INTERFACE: &[(&str, &str)] = &[
+    ("1-F", "diffuse factor (a): 1 - F(n.v)"),
+    ("1-S", "diffuse factor (b): 1 - S(v), S being the albedo of the interface"),
+    ("R", "diffuse factor (c): R(l) R(v), R = (1-S)/sqrt(1-S_avg)"),
+    (
+        "K",
+        "share of diffuse light that the interface reflects back to a base of albedo rho, whose \
+           factor is rho (1-K)/(1 - rho K): 1 - (1-S_avg)/n^2",
+    ),
+];
+
+/// The albedo that a base of albedo `rho` has below an interface that reflects a share `k` of its
+/// light back: ρ (1-K)/(1 - ρK) (Saunderson 1942).
+pub fn effective_albedo(rho: f64, k: f64) -> f64 {
+    rho * (1.0 - k) / (1.0 - rho * k)
+}
+
+/// The albedo of the base whose effective albedo this is: the inverse of [`effective_albedo`].
+pub fn base_albedo(effective: f64, k: f64) -> f64 {
+    effective / (1.0 - k + effective * k)
 }
 
 /// Refuses a lobe whose albedo can exceed 1: it leaves nothing to give back or to split.

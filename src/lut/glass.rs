@@ -18,7 +18,7 @@ use super::packing::{Content, Packing, Source};
 use super::{Lut, MOST_CHANNELS, first, lobe_flags};
 use crate::brdf::interface::{Interface, Side, TransmissionMasking};
 use crate::choice::choice;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::numeric::ball::Ball;
 use crate::table::Channel;
 
@@ -91,9 +91,18 @@ impl Glass {
         }
     }
 
-    /// The same with another index of refraction.
-    pub(super) fn at_ior(&self, ior: f64) -> Result<Self> {
-        Ok(Glass { interface: self.interface.at_ior(ior)?, ..*self })
+    /// The same with another relative index of refraction η: below 1 it is that of the medium seen
+    /// from inside, 1/n.
+    pub(super) fn at_index(&self, eta: f64) -> Result<Self> {
+        let interface = if eta >= 1.0 {
+            self.interface.at_ior(eta)?
+        } else if self.interface.side() == Side::Outside {
+            self.interface.at_ior(1.0 / eta)?.from(Side::Inside)
+        } else {
+            let (expected, got) = ("outside, where indices below 1 are seen from inside", "inside");
+            return Err(Error::bad_input("side", expected, got, "leave it out"));
+        };
+        Ok(Glass { interface, ..*self })
     }
 
     /// Both sides of an interface in a texel: the channels from outside, then those from inside.

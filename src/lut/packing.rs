@@ -3,6 +3,7 @@
 
 use super::{Lut, MOST_CHANNELS};
 use crate::brdf::Fresnel;
+use crate::brdf::interface::Side;
 use crate::error::{Error, Result};
 use crate::integrate::Integrand;
 use crate::numeric::ball::Ball;
@@ -121,6 +122,16 @@ impl Packing {
     /// The main table.
     pub fn main(&self) -> &Lut {
         &self.luts[0]
+    }
+
+    /// The cosine of the critical angle of glass that is seen from inside alone.
+    pub fn critical(&self) -> Option<f64> {
+        match self.luts[..] {
+            [Lut::Glass(glass)] if glass.interface().side() == Side::Inside => {
+                Some(glass.interface().critical())
+            }
+            _ => None,
+        }
     }
 
     /// Family, lobe and channels as flags.

@@ -11,7 +11,7 @@ pub use expression::{SHADING, Words};
 
 use crate::choice::{Choice, choice};
 use crate::error::{Error, Result};
-use crate::units::{Alpha, Cosine, F0, PerceptualRoughness, short};
+use crate::units::{Alpha, Cosine, F0, Ior, PerceptualRoughness, short};
 use std::fmt;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
@@ -32,8 +32,12 @@ pub enum Parameter {
     Exponent,
     /// Reflectance at normal incidence, from slice to slice.
     F0,
-    /// Index of refraction, from slice to slice.
+    /// Index of refraction, from slice to slice; below 1 it is that of a medium seen from inside,
+    /// 1/n.
     Ior,
+    /// n·v seen from inside glass by its place about the cosine c of the critical angle: c + (2p -
+    /// 1)(1 - c) above it and c + (2p - 1) c below.
+    Critical,
     /// The place of a control point among those of a fitted net: no bake has it.
     Control,
 }
@@ -45,6 +49,7 @@ choice!(Parameter, "axis", {
     Exponent = "exponent", "n = 10^(7p), Blinn-Phong's";
     F0 = "f0", "reflectance at normal incidence, from slice to slice";
     Ior = "ior", "index of refraction, from slice to slice";
+    Critical = "critical", "n.v centred on the critical angle of glass seen from inside";
     Control = "control", "control points of a fitted net";
 });
 
@@ -57,12 +62,19 @@ pub enum Mapping {
     Sqrt,
     /// t = √(1-p), so p = 1 - t²: t = 0 at p = 1.
     SqrtComplement,
+    /// t = √((n-1)/(n+1)), the fourth root of F0, of an index of refraction n: Cycles, EEVEE.
+    SqrtF0,
+    /// An index of refraction from 1/max to 1 on one half, and from 1 to max on the other: OSPRay,
+    /// Adobe.
+    Piecewise,
 }
 
 choice!(Mapping, "axis", {
     Linear = "linear", "p = t";
     Sqrt = "sqrt", "t = sqrt(p)";
     SqrtComplement = "sqrt-complement", "t = sqrt(1-p)";
+    SqrtF0 = "sqrt-f0", "t = sqrt((n-1)/(n+1)), of ior";
+    Piecewise = "piecewise", "ior from 1/max to 1 and from 1 to max";
 });
 
 /// The positions of the texels.
@@ -89,9 +101,9 @@ pub struct AxisSpec {
     pub flip: bool,
     /// Whether texels beyond an end of [0, 1] are moved to that end.
     pub clamp: bool,
-    /// Parameters below this are raised to it.
+    /// Parameters below this are raised to it; of an index of refraction the near end.
     pub min: f64,
-    /// Parameters above this are lowered to it.
+    /// Parameters above this are lowered to it; of an index of refraction the far end.
     pub max: f64,
 }
 
@@ -111,9 +123,22 @@ impl AxisSpec {
             nodes: Nodes::Offset(0.5),
             flip: false,
             clamp: true,
-            min: 0.0,
-            max: f64::INFINITY,
+            min: if is_ior(parameter) { 1.0 } else { 0.0 },
+            max: default_max(parameter, Mapping::Linear),
         }
+    }
+}
+
+const fn is_ior(parameter: Parameter) -> bool {
+    matches!(parameter, Parameter::Ior)
+}
+
+/// The max of an axis that names none: of an index of refraction OSPRay's, or all but infinity.
+const fn default_max(parameter: Parameter, mapping: Mapping) -> f64 {
+    match (parameter, mapping) {
+        (Parameter::Ior, Mapping::SqrtF0) => 100.0,
+        (Parameter::Ior, _) => 3.0,
+        _ => f64::INFINITY,
     }
 }
 
@@ -128,17 +153,22 @@ impl Axis {
                 "give a size in that range",
             ));
         }
-        if spec.parameter == Parameter::Ior {
-            let (expected, got) = ("a list of indices of refraction", format!("'{spec}'"));
-            return Err(Error::bad_input("axis", expected, got, "as in --ior 1.33,1.5"));
-        }
         let offset = match spec.nodes {
             Nodes::Edges => 0.0,
             Nodes::Offset(offset) => offset,
         };
         // NaN is in no range.
-        let ends = (0.0..=1.0).contains(&spec.min) && spec.max > 0.0 && spec.min <= spec.max;
-        if !(OFFSETS.contains(&offset) && ends) {
+        let ends = match is_ior(spec.parameter) {
+            true => spec.min >= 1.0 && spec.max > spec.min && spec.max.is_finite(),
+            false => (0.0..=1.0).contains(&spec.min) && spec.max > 0.0 && spec.min <= spec.max,
+        };
+        let maps = match spec.mapping {
+            Mapping::Linear | Mapping::Sqrt | Mapping::SqrtComplement => true,
+            Mapping::SqrtF0 => is_ior(spec.parameter),
+            // One half ends at 1.
+            Mapping::Piecewise => is_ior(spec.parameter) && spec.min == 1.0,
+        };
+        if !(OFFSETS.contains(&offset) && ends && maps) {
             let got = format!("'{spec}'");
             return Err(Error::bad_input("axis", AXIS_WORDS, got, "use those words"));
         }
@@ -150,9 +180,10 @@ impl Axis {
                 Parameter::Roughness => PerceptualRoughness::of_texel(value).map(drop),
                 Parameter::Alpha => Alpha::of_texel(value).map(drop),
                 // The same range: p in [0, 1] is every exponent from 1 to 1e7.
-                Parameter::Exponent | Parameter::F0 | Parameter::Control | Parameter::Ior => {
+                Parameter::Exponent | Parameter::F0 | Parameter::Control | Parameter::Critical => {
                     F0::new(value).map(drop)
                 }
+                Parameter::Ior => Ior::new(value.max(1.0 / value)).map(drop),
             };
             checked.map_err(|error| match error {
                 Error::BadInput(mut complaint) => {
@@ -190,21 +221,31 @@ impl Axis {
             Nodes::Offset(offset) => (i + offset) / self.size as f64,
         };
         let t = if self.spec.clamp { t.clamp(0.0, 1.0) } else { t };
+        let AxisSpec { min, max, parameter, .. } = self.spec;
+        let along = |p: f64| if is_ior(parameter) { min + (max - min) * p } else { p };
         let p = match self.spec.mapping {
-            Mapping::Linear => t,
-            Mapping::Sqrt => t * t,
-            Mapping::SqrtComplement => (1.0 - t) * (1.0 + t),
+            Mapping::Linear => along(t),
+            Mapping::Sqrt => along(t * t),
+            Mapping::SqrtComplement => along((1.0 - t) * (1.0 + t)),
+            Mapping::SqrtF0 => (1.0 + t * t) / ((1.0 - t) * (1.0 + t)),
+            Mapping::Piecewise if t < 0.5 => return (1.0 - 2.0 * t) / max + 2.0 * t,
+            Mapping::Piecewise => 1.0 + (max - 1.0) * (2.0 * t - 1.0),
         };
-        p.max(self.spec.min).min(self.spec.max)
+        p.max(min).min(max)
     }
 
     /// The fractional texel at which the parameter is `p`: the inverse of [`Axis::value`] where
     /// that does not clamp.
     pub fn texel(&self, p: f64) -> f64 {
+        let AxisSpec { min, max, parameter, .. } = self.spec;
+        let along = || if is_ior(parameter) { (p - min) / (max - min) } else { p };
         let t = match self.spec.mapping {
-            Mapping::Linear => p,
-            Mapping::Sqrt => p.max(0.0).sqrt(),
-            Mapping::SqrtComplement => (1.0 - p).max(0.0).sqrt(),
+            Mapping::Linear => along(),
+            Mapping::Sqrt => along().max(0.0).sqrt(),
+            Mapping::SqrtComplement => (1.0 - along()).max(0.0).sqrt(),
+            Mapping::SqrtF0 => ((p - 1.0) / (p + 1.0)).max(0.0).sqrt(),
+            Mapping::Piecewise if p < 1.0 => 0.5 * (p * max - 1.0) / (max - 1.0),
+            Mapping::Piecewise => 0.5 + 0.5 * (p - 1.0) / (max - 1.0),
         };
         let i = match self.spec.nodes {
             Nodes::Edges => t * (self.size as f64 - 1.0).max(1.0),
@@ -223,6 +264,9 @@ impl Axis {
 
     /// The number of texels whose parameter was moved to the axis's min or max.
     pub fn clamped(&self) -> usize {
+        if is_ior(self.spec.parameter) {
+            return 0;
+        }
         let spec = AxisSpec { min: 0.0, max: f64::INFINITY, ..self.spec };
         let free = Axis { spec, size: self.size };
         (0..self.size).filter(|&i| free.value(i) != self.value(i)).count()
@@ -241,14 +285,25 @@ impl Axis {
             Nodes::Edges => format!("{i}/{}", (n - 1).max(1)),
             Nodes::Offset(offset) => format!("({i} + {offset})/{n}"),
         };
-        let p = match self.spec.mapping {
-            Mapping::Linear => "t",
-            Mapping::Sqrt => "t^2",
-            Mapping::SqrtComplement => "1 - t^2",
-        };
         let AxisSpec { min, max, .. } = self.spec;
-        let p = if min > 0.0 { format!("max({p}, {min:?})") } else { p.into() };
-        let p = if max.is_finite() { format!("min({p}, {max:?})") } else { p };
+        let p = match self.spec.mapping {
+            Mapping::Linear => "t".into(),
+            Mapping::Sqrt => "t^2".into(),
+            Mapping::SqrtComplement => "1 - t^2".into(),
+            Mapping::SqrtF0 => "(1 + t^2)/(1 - t^2)".into(),
+            Mapping::Piecewise => {
+                format!("t < 1/2 ? (1 - 2t)/{max:?} + 2t : 1 + ({max:?} - 1) (2t - 1)")
+            }
+        };
+        let p = match (self.spec.parameter, self.spec.mapping) {
+            (Parameter::Ior, Mapping::Piecewise) => p,
+            (Parameter::Ior, Mapping::SqrtF0) => format!("min(max({p}, {min:?}), {max:?})"),
+            (Parameter::Ior, _) => format!("{min:?} + ({max:?} - {min:?}) ({p})"),
+            _ => {
+                let p = if min > 0.0 { format!("max({p}, {min:?})") } else { p };
+                if max.is_finite() { format!("min({p}, {max:?})") } else { p }
+            }
+        };
         let p =
             if self.spec.parameter == Parameter::Exponent { format!("10^(7 ({p}))") } else { p };
         let t = if self.spec.clamp { format!("clamp({t}, 0, 1)") } else { t };
@@ -261,10 +316,11 @@ const OFFSETS: RangeInclusive<f64> = -2.0..=2.0;
 
 /// The words of an axis, for `--help` and errors.
 pub const AXIS_WORDS: &str = "PARAMETER[,MAPPING][,NODES][,flip][,unclamped][,min=X][,max=X] with \
-                              PARAMETER nov, roughness, alpha, exponent or (along z) f0; MAPPING \
-                              linear, sqrt (t = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES \
-                              centres, edges or offset=X with X in [-2, 2]; min=X with X in [0, \
-                              1]; max=X above 0, from min up";
+                              PARAMETER nov, critical, roughness, alpha, exponent or (along z) f0 \
+                              or ior; MAPPING linear, sqrt (t = sqrt(p)), sqrt-complement (t = \
+                              sqrt(1-p)) or of ior sqrt-f0 or piecewise; NODES centres, edges or \
+                              offset=X with X in [-2, 2]; min=X with X in [0, 1]; max=X above 0, \
+                              from min up; of ior min and max from 1 up";
 
 impl FromStr for AxisSpec {
     type Err = Error;
@@ -304,6 +360,9 @@ impl FromStr for AxisSpec {
                 Some(_) => return Err(wrong(word)),
             }
         }
+        if !given.contains(&"max") {
+            spec.max = default_max(spec.parameter, spec.mapping);
+        }
         Ok(spec)
     }
 }
@@ -324,10 +383,10 @@ impl fmt::Display for AxisSpec {
             write!(f, ",unclamped")?;
         }
         // What is no min or max is shown too, since an error quotes it.
-        if self.min != 0.0 {
+        if self.min != AxisSpec::of(self.parameter).min {
             write!(f, ",min={}", short(self.min))?;
         }
-        if self.max != f64::INFINITY {
+        if self.max != default_max(self.parameter, self.mapping) {
             write!(f, ",max={}", short(self.max))?;
         }
         Ok(())

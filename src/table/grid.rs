@@ -19,13 +19,17 @@ pub struct Grid {
 impl Grid {
     /// The grid of two axes, of which one has to be n·v and the other a roughness.
     pub fn new(x: &Axis, y: &Axis) -> Result<Self> {
-        let nov = |axis: &Axis| axis.spec().parameter == Parameter::Nov;
-        match (nov(x), nov(y), alphas(x), alphas(y)) {
-            (true, _, _, Some(alphas)) => {
-                Ok(Grid { mus: x.values(), alphas: alphas?, transposed: false })
+        Grid::about(x, y, None)
+    }
+
+    /// The same for glass with this cosine of the critical angle, about which n·v may be centred.
+    pub fn about(x: &Axis, y: &Axis, critical: Option<f64>) -> Result<Self> {
+        match (cosines(x, critical), cosines(y, critical), alphas(x), alphas(y)) {
+            (Some(mus), _, _, Some(alphas)) => {
+                Ok(Grid { mus: mus?, alphas: alphas?, transposed: false })
             }
-            (_, true, Some(alphas), _) => {
-                Ok(Grid { mus: y.values(), alphas: alphas?, transposed: true })
+            (_, Some(mus), Some(alphas), _) => {
+                Ok(Grid { mus: mus?, alphas: alphas?, transposed: true })
             }
             _ => Err(Error::bad_input(
                 "axes",
@@ -68,13 +72,38 @@ impl Grid {
     }
 }
 
+/// n·v at every texel of an axis of it; none of another axis.
+fn cosines(axis: &Axis, critical: Option<f64>) -> Option<Result<Vec<f64>>> {
+    match (axis.spec().parameter, critical) {
+        (Parameter::Nov, _) => Some(Ok(axis.values())),
+        (Parameter::Critical, Some(c)) => {
+            let cosine = |p: f64| {
+                let off = 2.0 * p - 1.0;
+                let mu = c + off * if off < 0.0 { c } else { 1.0 - c };
+                mu.clamp(0.0, 1.0)
+            };
+            Some(Ok(axis.values().into_iter().map(cosine).collect()))
+        }
+        (Parameter::Critical, None) => {
+            let (expected, cure) =
+                ("glass seen from inside beside it", "add --lut glass --side inside");
+            Some(Err(Error::bad_input("axis critical", expected, "none", cure)))
+        }
+        _ => None,
+    }
+}
+
 /// α at every texel of an axis of roughness; none of another axis.
 fn alphas(axis: &Axis) -> Option<Result<Vec<f64>>> {
     let alpha: fn(f64) -> Result<f64> = match axis.spec().parameter {
         Parameter::Roughness => |p| PerceptualRoughness::of_texel(p).map(|r| Alpha::from(r).get()),
         Parameter::Exponent => |p| Ok(alpha_of_exponent(libm::exp10(7.0 * p))),
         Parameter::Alpha => Ok,
-        Parameter::Nov | Parameter::F0 | Parameter::Ior | Parameter::Control => return None,
+        Parameter::Nov
+        | Parameter::Critical
+        | Parameter::F0
+        | Parameter::Ior
+        | Parameter::Control => return None,
     };
     Some(axis.values().into_iter().map(alpha).collect())
 }

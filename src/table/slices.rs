@@ -54,13 +54,13 @@ choice!(SlicesAs, "slices-as", {
 });
 
 impl Slices {
-    /// Slices at the nodes of an axis of F0.
+    /// Slices at the nodes of an axis of F0 or of the index of refraction.
     pub fn along(axis: &Axis) -> Result<Self> {
         let parameter = axis.spec().parameter;
-        if parameter != Parameter::F0 {
+        if ![Parameter::F0, Parameter::Ior].contains(&parameter) {
             let got = parameter.to_string();
             let cure = "lay n.v and roughness along x and y";
-            return Err(Error::bad_input("axis z", "f0", got, cure));
+            return Err(Error::bad_input("axis z", "f0 or ior", got, cure));
         }
         let values = axis.values();
         check(&parameter.to_string(), &values.iter().map(|&v| short(v)).collect::<Vec<_>>())?;

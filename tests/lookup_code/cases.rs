@@ -134,7 +134,7 @@ impl Case {
     /// A component at (n·v, roughness), and F0 where there are slices.
     fn component(&self, [nov, roughness, f0]: [f64; 3], component: usize) -> f64 {
         let parameter = |axis: &Axis| match axis.spec().parameter {
-            Parameter::Nov => nov,
+            Parameter::Nov | Parameter::Critical => nov,
             Parameter::Roughness => roughness,
             Parameter::Alpha => roughness * roughness,
             // p = log10(n)/7, n = 2/α² - 2.

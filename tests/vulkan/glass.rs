@@ -16,7 +16,7 @@ use splitsum::integrate::Integrand;
 use splitsum::integrate::glass::ring::{Ring, Zero, azimuth_at, cosine_at, zero_at};
 use splitsum::integrate::glass::{GlassNodes, View, glass, sorted, tangent};
 use splitsum::integrate::rule::Method;
-use splitsum::integrate::rules::{G520, G864, G2240};
+use splitsum::integrate::rules::{G560, G904, G2240};
 use splitsum::numeric::quadrature::slope_map::Power;
 use splitsum::table::grid::Grid;
 use splitsum::{Glass, GlassChannels, Lut, Precision, Request};
@@ -275,7 +275,7 @@ fn interface(lobe: Microfacet, ior: f64, side: Side) -> Result<Interface, Failed
 }
 
 fn all(gpu: &Gpu, side: Side) -> Result<(), Failed> {
-    let Method::Glass(rule) = G520.method else { return Err("g520".into()) };
+    let Method::Glass(rule) = G560.method else { return Err("g560".into()) };
     let [slopes, azimuths, total, transmitted_slopes, transmitted_azimuths] = rule.counts(side);
     let constants = format!(
         "const RULE = Rule({slopes}u, {azimuths}u, {total}u, {transmitted_slopes}u, \
@@ -334,7 +334,7 @@ fn grid(interface: Interface, count: usize) -> Grid {
 fn within_1e_6(gpu: &Gpu) -> Result<(), Failed> {
     for interface in interfaces()? {
         let grid = grid(interface, 24);
-        for rule in [G520, G864, G2240] {
+        for rule in [G560, G904, G2240] {
             let Method::Glass(nodes) = rule.method else { return Err(rule.name.into()) };
             let device = bake_glass(gpu, interface, &grid, &nodes, &|_| ())?.integrals;
             let truth = cpu::bake(Integrand::Glass(interface), &grid, &rule, &|_| ());

@@ -52,9 +52,12 @@ impl TableArgs {
             Family::Energy => {
                 check_no_fresnel(fresnel)?;
                 let channels = self.channels.as_deref().unwrap_or(EnergyChannels::Split.word());
-                let channels = EnergyChannels::named(channels)?;
-                Energy::new(self.lobe(Ndf::Ggx)?, f0, channels)
-                    .map(|energy| Lut::Energy(energy).into())
+                let (channels, lobe) = (EnergyChannels::named(channels)?, self.lobe(Ndf::Ggx)?);
+                let energy = match (&self.ior, channels) {
+                    (Some(_), EnergyChannels::Split) => Energy::of_interface(lobe, ior.get()),
+                    _ => Energy::new(lobe, f0, channels),
+                };
+                energy.map(|energy| Lut::Energy(energy).into())
             }
             Family::Glass => {
                 check_no_fresnel(fresnel)?;

@@ -25,7 +25,7 @@ impl TableArgs {
     }
 
     /// F0 of each slice; of a table over two axes its own.
-    pub(super) fn f0s(&self, iors: &[Ior]) -> Result<Vec<F0>> {
+    pub(super) fn f0s(&self) -> Result<Vec<F0>> {
         match (&self.f0, &self.ior) {
             (Some(_), Some(_)) => Err(Error::bad_input(
                 "f0",
@@ -34,8 +34,7 @@ impl TableArgs {
                 "leave one of them out",
             )),
             (Some(f0s), None) => f0s.parse("f0")?.into_iter().map(F0::new).collect(),
-            (None, Some(_)) => Ok(iors.iter().map(|&ior| F0::from(ior)).collect()),
-            (None, None) => Ok(vec![F0::new(DEFAULT_F0)?]),
+            (None, _) => Ok(vec![F0::new(DEFAULT_F0)?]),
         }
     }
 
@@ -62,7 +61,7 @@ impl TableArgs {
                 Err(Error::bad_input("size", expected, "no slices", "as in 64x64x16"))
             }
             (None, Some(_)) => {
-                let cure = "add a z axis, as in --z f0";
+                let cure = "add a z axis, as in --z ior or --z f0";
                 Err(Error::bad_input("size", "columns and rows without a z axis", "slices", cure))
             }
             (None, None) if iors.len() > 1 && request.packing().main().ior().is_some() => {

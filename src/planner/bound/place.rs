@@ -180,7 +180,10 @@ impl<'a> Coordinates<'a> {
             Shape::Spline { x, y, .. } => (x, across(y, self.region, root)),
             Shape::Texture { x, y, .. } => {
                 let p = match x.spec().mapping {
-                    Mapping::Linear => counted.whole() * alpha,
+                    // Those of an index of refraction are no axis of an approximation.
+                    Mapping::Linear | Mapping::SqrtF0 | Mapping::Piecewise => {
+                        counted.whole() * alpha
+                    }
                     Mapping::Sqrt => counted.sqrt() * root.square(),
                     Mapping::SqrtComplement => (nov * -1.0 + 1.0).sqrt(),
                 };
@@ -189,7 +192,7 @@ impl<'a> Coordinates<'a> {
                     _ => root.square(),
                 };
                 let q = match y.spec().mapping {
-                    Mapping::Linear => parameter,
+                    Mapping::Linear | Mapping::SqrtF0 | Mapping::Piecewise => parameter,
                     Mapping::Sqrt => parameter.sqrt(),
                     Mapping::SqrtComplement => (parameter * -1.0 + 1.0).sqrt(),
                 };

@@ -1,7 +1,7 @@
 //! Where a parameter lies along an axis, as an expression in the words of a language: the inverse
 //! of [`Axis::value`] where that does not clamp.
 
-use super::{Axis, Mapping, Nodes, Parameter};
+use super::{Axis, AxisSpec, Mapping, Nodes, Parameter};
 
 impl Axis {
     /// The factor and the shift that carry t to the fractional texel.
@@ -23,13 +23,45 @@ impl Axis {
                 let factor = (words.number)(std::f64::consts::LOG10_2 / 7.0);
                 format!("({} * {factor})", (words.log2)(p))
             }
+            Parameter::Ior => return self.t_at_ior(p, words),
             Parameter::Nov
+            | Parameter::Critical
             | Parameter::Roughness
             | Parameter::Alpha
             | Parameter::F0
-            | Parameter::Ior
             | Parameter::Control => p.to_owned(),
         };
+        self.t_of(p, words)
+    }
+
+    /// The same at the index of refraction `n`.
+    fn t_at_ior(&self, n: &str, words: &Words) -> String {
+        let AxisSpec { min, max, .. } = self.spec;
+        let number = words.number;
+        let one = number(1.0);
+        match self.spec.mapping {
+            Mapping::Linear | Mapping::Sqrt | Mapping::SqrtComplement => {
+                let p = format!("({n} - {}) * {}", number(min), number(1.0 / (max - min)));
+                self.t_of(format!("({p})"), words)
+            }
+            Mapping::SqrtF0 => {
+                let root = format!("({n} - {one}) / ({n} + {one})");
+                (words.sqrt)(&(words.max)(&root, &number(0.0)))
+            }
+            Mapping::Piecewise => {
+                // n = min(n, 1) + max(n, 1) - 1.
+                let above = (words.max)(n, &one);
+                let [below, beyond] = [max, 1.0].map(|scale| number(0.5 * scale / (max - 1.0)));
+                format!(
+                    "({n} + {one} - {above} - {}) * {below} + ({above} - {one}) * {beyond}",
+                    number(1.0 / max)
+                )
+            }
+        }
+    }
+
+    /// t at p in [0, 1].
+    fn t_of(&self, p: String, words: &Words) -> String {
         let zero = (words.number)(0.0);
         match self.spec.mapping {
             Mapping::Linear => p,
@@ -38,6 +70,8 @@ impl Axis {
                 let complement = format!("{} - {p}", (words.number)(1.0));
                 (words.sqrt)(&(words.max)(&complement, &zero))
             }
+            // Of an index of refraction alone.
+            Mapping::SqrtF0 | Mapping::Piecewise => p,
         }
     }
 

@@ -1,0 +1,125 @@
+//! `splitsum furnace --ior`: the formulas for a base below an interface.
+
+use super::{FurnaceArgs, SCALE, TOLERANCE, grid};
+use crate::brdf::Fresnel;
+use crate::brdf::{Masking, Ndf};
+use crate::choice::Choice;
+use crate::cli::{output, print, print_json, resources};
+use crate::error::{Error, Result};
+use crate::format::metadata::TOOL;
+use crate::furnace::coat::{Coat, Coated, coated};
+use crate::image::{diverging, panels};
+use crate::integrate::Integrand;
+use crate::integrate::rule::Rule;
+use crate::integrate::rules::REFERENCE;
+use crate::table::grid::Grid;
+use crate::units::roughness_of;
+use serde::Serialize;
+
+/// The albedos of the base that none names.
+const ALBEDOS: [f64; 2] = [1.0, 0.5];
+
+/// Beyond it a formula is not reciprocal: the integrals' own error is a hundredth.
+const SYMMETRIC: f64 = 1e-4;
+
+#[derive(Serialize)]
+struct Report {
+    tool: &'static str,
+    model: Ndf,
+    masking: Masking,
+    ior: f64,
+    formulas: Vec<Line>,
+}
+
+#[derive(Serialize)]
+struct Line {
+    formula: Coat,
+    rho: f64,
+    /// The least and the most that comes back beyond what is right.
+    lost: f64,
+    made: f64,
+    /// The averages over all directions at roughness 0, 1/2 and 1.
+    averages: [f64; 3],
+    reciprocal: bool,
+}
+
+pub(super) fn run(arguments: &FurnaceArgs, ior: f64) -> Result<()> {
+    let (lobe, size) = (arguments.lobe.lobe()?, usize::from(arguments.size));
+    let rhos: Vec<f64> = match arguments.albedo.is_empty() {
+        true => ALBEDOS.into(),
+        false => arguments.albedo.clone(),
+    };
+    if let Some(rho) = rhos.iter().find(|rho| !(0.0..=1.0).contains(*rho)) {
+        let (got, cure) = (rho.to_string(), "give an albedo in that range");
+        return Err(Error::bad_input("albedo", "0 to 1", got, cure));
+    }
+    let maps = rhos.len() * Coat::ALL.len();
+    resources::start(
+        (size * size * (16 + maps * 24) + size * 4096) as u64,
+        None,
+        resources::ALLOW,
+    )?;
+    let grid = grid(size)?;
+    // Of an index that is none the interface says so.
+    let fresnel = format!("dielectric:{ior}").parse().unwrap_or(Fresnel::Schlick);
+    let integrand = Integrand::Specular(lobe, fresnel);
+    let rule = Rule::for_cpu(integrand, TOLERANCE, grid.len()).unwrap_or(REFERENCE);
+    let all = coated(lobe, ior, &rhos, &grid, &rule)?;
+    let right = |of: &Coated| {
+        all.iter().find(|other| other.coat == Coat::Interreflecting && other.rho == of.rho)
+    };
+    let deviations: Vec<Vec<f64>> = all
+        .iter()
+        .map(|of| match right(of) {
+            Some(right) => {
+                of.energy.iter().zip(&right.energy).map(|(e, right)| e - right).collect()
+            }
+            None => Vec::new(),
+        })
+        .collect();
+    if let Some(name) = &arguments.output {
+        // They come albedo by albedo; the picture's rows are the formulas.
+        let of_coat = |coat| deviations.iter().skip(coat).step_by(Coat::ALL.len());
+        let scaled = |deviation: &Vec<f64>| deviation.iter().map(|off| off / SCALE).collect();
+        let values: Vec<Vec<f64>> = (0..Coat::ALL.len()).flat_map(of_coat).map(scaled).collect();
+        output::write_picture(name, &panels(&values, (size, size), rhos.len(), diverging))?;
+    }
+    let line = |(of, deviation): (&Coated, &Vec<f64>)| Line {
+        formula: of.coat,
+        rho: of.rho,
+        lost: -deviation.iter().copied().fold(0.0, f64::min),
+        made: deviation.iter().copied().fold(0.0, f64::max),
+        averages: averages(of, &grid),
+        reciprocal: of.asymmetry <= SYMMETRIC,
+    };
+    let report = Report {
+        tool: TOOL,
+        model: lobe.ndf,
+        masking: lobe.masking,
+        ior,
+        formulas: all.iter().zip(&deviations).map(line).collect(),
+    };
+    if arguments.json { print_json(&report) } else { print(&describe(&report)) }
+}
+
+/// The averages at the first row, the one nearest to roughness 1/2, and the last.
+fn averages(of: &Coated, grid: &Grid) -> [f64; 3] {
+    let middle = grid.alphas.partition_point(|&alpha| roughness_of(alpha) < 0.5);
+    [0, middle, grid.alphas.len() - 1].map(|row| of.averages[row])
+}
+
+fn describe(report: &Report) -> String {
+    let Report { model, masking, ior, formulas, .. } = report;
+    let mut text = format!(
+        "{model}, {masking}, n = {ior}, on a Lambertian base of albedo rho\n\
+         rho   formula            lost      made     average at r = 0, 1/2, 1   reciprocal"
+    );
+    for Line { formula, rho, lost, made, averages: [smooth, half, rough], reciprocal } in formulas {
+        let (formula, reciprocal) = (formula.word(), if *reciprocal { "yes" } else { "no" });
+        text.push_str(&format!(
+            "\n{rho:<5} {formula:<17} {lost:>6.4}    {made:>6.4}     {smooth:.4}  {half:.4}  \
+             {rough:.4}     {reciprocal}"
+        ));
+    }
+    text
+}
