@@ -154,7 +154,8 @@ fn reflected_ring(view: View, ring: Ring, first: u32, rule: Rule) -> f32 {
             part += azimuth.share * node.y * (seen(view, ring, x) * f);
         }
     }
-    return part * sqrt(t2) * 8.0 + reflected_whole(view, ring, t2, horizon, first + 2u * count, rule);
+    let whole = reflected_whole(view, ring, t2, horizon, first + 2u * count, rule);
+    return part * sqrt(t2) * 8.0 + whole;
 }
 
 // The same from t^2 = `t2` to the horizon, where light is reflected whole.

@@ -18,7 +18,7 @@ use crate::certify::tally::{Tally, unbounded};
 use crate::certify::ziv::{DeviceTable, certify_band};
 use crate::error::{Error, Result};
 use crate::integrate::Field;
-use crate::integrate::hammersley::Hammersley;
+use crate::integrate::estimator::Estimator;
 use crate::integrate::rule::Rule;
 use crate::integrate::rules::REFERENCE;
 use crate::lut::sheet::Sheet;
@@ -30,7 +30,7 @@ use crate::table::claim::{Claim, Stage};
 use crate::table::grid::Grid;
 use crate::table::packed::Packed;
 use crate::table::{self, Table};
-use integration::{Checked, Integration, by_estimator, sum};
+use integration::{Checked, Integration, by_estimator, evaluations, sum};
 use std::time::Instant;
 
 /// A baked table, and a report for each part of each of its slices.
@@ -285,15 +285,14 @@ impl PartOfSlice<'_> {
     }
 
     /// Repeats an engine's own numbers, and measures how far they are from the truth.
-    fn estimated(&self, sheet: &mut Sheet, estimator: Hammersley) -> Result<Outcome> {
+    fn estimated(&self, sheet: &mut Sheet, estimator: Estimator) -> Result<Outcome> {
         let (part, request) = (self.part, self.slice.plan.request);
         let integrand = part.integrand();
         let start = Instant::now();
         let (mut measured, mut seconds) = (Deviation::default(), Seconds::default());
-        let points = estimator.points();
         let measured_points = self.slice.measured_points();
         for (first, band) in self.slice.bands() {
-            let field = by_estimator(integrand, &band, &points, self.slice.progress);
+            let field = by_estimator(integrand, &band, estimator, self.slice.progress)?;
             let value = |(i, integrals): (usize, &[f64])| {
                 let balls: Vec<Ball> = integrals.iter().copied().map(Ball::exact).collect();
                 let values = part.values(band.point(i).0, &balls, &[]);
@@ -311,7 +310,7 @@ impl PartOfSlice<'_> {
             measured_error: (measured.max(), measured.points),
         };
         let checks = Checks {
-            evaluations: f64::from(estimator.count),
+            evaluations: evaluations(estimator),
             cross_check: None,
             measured,
             integrals: integrand.names(),

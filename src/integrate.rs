@@ -10,6 +10,7 @@ pub mod bounds;
 pub mod costs;
 pub mod double_exponential;
 pub mod errors;
+pub mod estimator;
 pub mod field;
 pub mod glass;
 pub mod half_vectors;

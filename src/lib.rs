@@ -126,6 +126,7 @@ pub use choice::Choice;
 pub use error::{Complaint, Error, ExitCode, Result};
 pub use format::encoding::{Notation, Supercompress};
 pub use format::{Encoding, FORMATS, Format, Style, encode};
+pub use integrate::estimator::Estimator;
 pub use integrate::hammersley::{Frame, Hammersley};
 pub use integrate::rule::Rule;
 pub use lookup::{Extra, Language, Lookup, Store};

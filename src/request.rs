@@ -4,7 +4,7 @@
 use crate::brdf::{Fresnel, Microfacet, Ndf};
 use crate::error::{Error, Result};
 use crate::integrate::Integrand;
-use crate::integrate::hammersley::Hammersley;
+use crate::integrate::estimator::Estimator;
 use crate::integrate::rule::Rule;
 use crate::integrate::rules::RULES;
 use crate::lut::{Content, Lut, Packing, Source};
@@ -29,7 +29,7 @@ pub enum Accuracy {
     /// Not certified: integrals by this rule.
     Rule(Rule),
     /// Not certified and without a bound: an engine's own estimator.
-    Estimator(Hammersley),
+    Estimator(Estimator),
 }
 
 impl Accuracy {
@@ -295,7 +295,14 @@ fn check_part(lut: &Lut, grid: &Grid, accuracy: Accuracy, precision: Precision) 
                 "give one in that range",
             ))
         }
-        (Accuracy::Estimator(_), _) => match integrand {
+        (Accuracy::Estimator(Estimator::WrongSide), _) => match integrand {
+            Integrand::Glass(_) if !lut.needs_averages() => Ok(()),
+            _ => {
+                let (expected, cure) = ("R and T of glass", "leave out the estimator");
+                Err(Error::bad_input("estimator", expected, lut.name(), cure))
+            }
+        },
+        (Accuracy::Estimator(Estimator::Hammersley(_)), _) => match integrand {
             Integrand::Specular(lobe, _) if lobe.ndf == Ndf::Ggx && !lut.needs_averages() => {
                 check_views(grid)
             }

@@ -15,7 +15,7 @@ use splitsum::table::precision::Precision;
 
 fn request(lut: Lut, estimator: Hammersley, x: &str, y: &str) -> splitsum::Result<Request> {
     let axis = |words: &str| Axis::new(words.parse().unwrap(), 16).unwrap();
-    Request::new(lut, axis(x), axis(y), Accuracy::Estimator(estimator), Precision::F32)
+    Request::new(lut, axis(x), axis(y), Accuracy::Estimator(estimator.into()), Precision::F32)
 }
 
 #[test]

@@ -5,12 +5,15 @@ use crate::backend::cpu::Baker;
 use crate::backend::device::DeviceBake;
 use crate::backend::{Gpu, Progress, bake, bake_glass};
 use crate::brdf::fresnel::with_basis;
+use crate::brdf::{Fresnel, Microfacet};
 use crate::certify::deviation::{self, Deviation};
 use crate::error::{Error, Result};
 use crate::integrate::average::{average_error, average_nodes, averages};
 use crate::integrate::errors::f32_arithmetic;
+use crate::integrate::estimator::Estimator;
 use crate::integrate::hammersley::{Point, estimate};
 use crate::integrate::rule::{Method, Rule};
+use crate::integrate::rules::G4536;
 use crate::integrate::{Field, Integrand, scale};
 use crate::numeric::ball::Ball;
 use crate::report::Seconds;
@@ -58,8 +61,9 @@ impl Integration<'_> {
 
     /// The averages of each row of a grid that these integrands have.
     pub fn averages(&mut self, grid: &Grid, averaged: &[Integrand]) -> Result<Vec<Vec<Ball>>> {
-        if let Integrand::Glass(_) = self.integrand {
-            return Ok(self.averages_of_glass(grid, averaged));
+        if let Integrand::Glass(_) | Integrand::Specular(_, Fresnel::Dielectric(_)) = self.integrand
+        {
+            return Ok(self.averages_of_interfaces(grid, averaged));
         }
         let nodes = average_nodes();
         let directions = grid.at_directions(nodes.iter().map(|node| node.0).collect());
@@ -69,8 +73,8 @@ impl Integration<'_> {
         Ok(averages.iter().zip(&grid.alphas).map(row).collect())
     }
 
-    /// The same of glass, whose directions vary with roughness: by the CPU.
-    fn averages_of_glass(&self, grid: &Grid, averaged: &[Integrand]) -> Vec<Vec<Ball>> {
+    /// The same of interfaces, whose directions vary with roughness: by the CPU.
+    fn averages_of_interfaces(&self, grid: &Grid, averaged: &[Integrand]) -> Vec<Vec<Ball>> {
         let mut averages = vec![Vec::new(); grid.alphas.len()];
         for &integrand in averaged {
             let rule = self.baker.rule;
@@ -143,16 +147,42 @@ pub fn on_device(
     }
 }
 
-/// The integrals of a specular lobe over a grid by an estimator; zeros of what has none.
+/// The rule by which refractions to the wrong side are counted.
+const WRONG_SIDE_RULE: Rule = G4536;
+
+/// Evaluations of an estimator for a texel.
+pub(super) fn evaluations(estimator: Estimator) -> f64 {
+    estimator.count().map_or(WRONG_SIDE_RULE.evaluations(1) as f64, f64::from)
+}
+
+/// The integrals over a grid by an estimator; an error for what it does not serve for.
 pub(super) fn by_estimator(
     integrand: Integrand,
+    grid: &Grid,
+    estimator: Estimator,
+    progress: Progress,
+) -> Result<Field> {
+    match (integrand, estimator) {
+        (Integrand::Specular(lobe, fresnel), Estimator::Hammersley(points)) => {
+            Ok(sampled((lobe, fresnel), grid, &points.points(), progress))
+        }
+        (Integrand::Glass(interface), Estimator::WrongSide) => {
+            let wrong = Integrand::Glass(interface.counting_wrong_side());
+            Ok(Baker::new(wrong, &WRONG_SIDE_RULE).bake(grid, progress))
+        }
+        _ => Err(Error::Internal(format!("estimator {estimator} of {integrand}"))),
+    }
+}
+
+/// The integrals of a specular lobe at Hammersley's points.
+fn sampled(
+    (lobe, fresnel): (Microfacet, Fresnel),
     grid: &Grid,
     points: &[Point],
     progress: Progress,
 ) -> Field {
-    let (count, width) = (integrand.count(), grid.mus.len());
+    let (count, width) = (fresnel.count(), grid.mus.len());
     let mut field = Field::zeros(count, grid.len());
-    let Integrand::Specular(lobe, fresnel) = integrand else { return field };
     let rows = field.values_mut().par_chunks_mut(count * width).zip(&grid.alphas);
     rows.for_each(|(integrals, &alpha)| {
         for (integrals, &mu) in integrals.chunks_exact_mut(count).zip(&grid.mus) {

@@ -67,6 +67,8 @@ pub struct Interface {
     medium: Dielectric,
     side: Side,
     transmission: TransmissionMasking,
+    /// See [`Interface::counting_wrong_side`].
+    wrong_side: bool,
 }
 
 /// The distributions with a Smith term of their own that is smooth.
@@ -92,7 +94,7 @@ impl Interface {
             let (expected, got) = (words(&MASKINGS), lobe.masking.word());
             return Err(Error::bad_input("masking of glass", expected, got, cure));
         }
-        Ok(Interface { lobe, medium: Dielectric::new(ior)?, side, transmission })
+        Ok(Interface { lobe, medium: Dielectric::new(ior)?, side, transmission, wrong_side: false })
     }
 
     /// Interfaces of every kind, with indices at which rules err most: what bounds are searched
@@ -117,6 +119,17 @@ impl Interface {
     /// The same interface seen from this side.
     pub fn from(self, side: Side) -> Self {
         Interface { side, ..self }
+    }
+
+    /// The same interface with refractions from inside that leave on the side of v counted as if
+    /// they passed, at |n·l|: an error of Cycles' tables, for rules about n alone.
+    pub fn counting_wrong_side(self) -> Self {
+        Interface { wrong_side: true, ..self }
+    }
+
+    /// Whether it counts them.
+    pub fn counts_wrong_side(self) -> bool {
+        self.wrong_side
     }
 
     /// The same with another index of refraction.
@@ -193,7 +206,7 @@ impl Interface {
             return [Some(zero), self.straight(mu, alpha)];
         }
         match self.side {
-            Side::Inside if mu == 0.0 => [None, Some(zero)],
+            Side::Inside if mu == 0.0 && !self.wrong_side => [None, Some(zero)],
             Side::Inside | Side::Outside => [None, None],
         }
     }

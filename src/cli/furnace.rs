@@ -42,8 +42,8 @@ pub struct FurnaceArgs {
         value_parser = choices::of::<Diffuse>()
     )]
     diffuse: Diffuse,
-    /// The formulas for a base below an interface with this index of refraction, 1 to 100, beside each
-    /// other, in the place of those at an F0
+    /// The formulas for a base below an interface with this index of refraction, 1 to 100, beside
+    /// each other, in the place of those at an F0
     #[arg(
         long, value_name = "N", conflicts_with_all = ["multiple_scattering", "diffuse"],
         allow_hyphen_values = true
@@ -64,9 +64,9 @@ pub struct FurnaceArgs {
         value_parser = clap::value_parser!(u16).range(2..=1024)
     )]
     size: u16,
-    /// Write a picture: a column for each F0 or albedo, a row for each split or formula; blue where
-    /// energy is lost, orange where it is made, full at 0.25 of the light; in each panel n.v from
-    /// left to right, roughness from top to bottom
+    /// Write a picture: a column for each F0, a row for each split, or a column for each formula
+    /// and a row for each albedo; blue where energy is lost, orange where it is made, full at 0.25
+    /// of the light; in each panel n.v from left to right, roughness from top to bottom
     #[arg(short, long, value_name = "FILE.png")]
     output: Option<String>,
     /// Print the report as JSON

@@ -78,19 +78,21 @@ pub struct TableArgs {
     /// for a square [default: 128]
     #[arg(long, value_name = "N|WxH|WxHxD", allow_hyphen_values = true)]
     size: Option<Size>,
-    /// The axis along a row, for example nov,sqrt,edges: PARAMETER nov, roughness (perceptual),
-    /// alpha or exponent (n = 10^(7p), Blinn-Phong's); then, where they differ from linear,centres:
-    /// MAPPING linear, sqrt (t = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES centres, edges
-    /// (i/(N-1)) or offset=X ((i+X)/N); flip; unclamped, so that nodes beyond an end stay there;
-    /// min=X; max=X. n.v is 0 or from 1e-30 to 1, roughness 0 or from 5e-10 to 1, unclamped to 1.06
-    /// [default: nov]
+    /// The axis along a row, for example nov,sqrt,edges: PARAMETER nov, critical (n.v centred on
+    /// the critical angle of glass seen from inside), roughness (perceptual), alpha or exponent (n
+    /// = 10^(7p), Blinn-Phong's); then, where they differ from linear,centres: MAPPING linear, sqrt
+    /// (t = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES centres, edges (i/(N-1)) or offset=X
+    /// ((i+X)/N); flip; unclamped, so that nodes beyond an end stay there; min=X; max=X. n.v is 0
+    /// or from 1e-30 to 1, roughness 0 or from 5e-10 to 1, unclamped to 1.06 [default: nov]
     #[arg(long, value_name = "AXIS")]
     x: Option<String>,
     /// The axis from row to row, in the same words [default: roughness, or nov where x is a
     /// roughness]
     #[arg(long, value_name = "AXIS")]
     y: Option<String>,
-    /// The axis from slice to slice of a split, in the same words: PARAMETER f0 [default: none]
+    /// The axis from slice to slice, in the same words: PARAMETER f0 of a split, or ior of a split
+    /// or of glass, from min to max=3; MAPPING of ior also sqrt-f0 (t = sqrt((n-1)/(n+1)), to 100)
+    /// or piecewise (1/max to 1, seen from inside, and 1 to max) [default: none]
     #[arg(long, value_name = "AXIS")]
     z: Option<String>,
     /// Storage of the values [default: the first for the format]
@@ -111,15 +113,16 @@ pub struct TableArgs {
     /// f16, 3e-5 for a2b10g10r10, 1e-4 for unorm8; more for models of which a device keeps less]
     #[arg(long, value_name = "ERROR", conflicts_with = "rule", allow_hyphen_values = true)]
     tolerance: Option<f64>,
-    /// Store the values of this quadrature rule, not certified; those that begin with h run on
-    /// Vulkan too
+    /// Store the values of this quadrature rule, not certified; those that begin with h, and g560
+    /// to g2240, run on Vulkan too
     #[arg(long, value_name = "NAME", value_parser = choices::rule())]
     rule: Option<String>,
     /// Repeat an engine's own numbers, not certified, for example hammersley,n=1024,frame=cos:
     /// half vectors of GGX by D at Hammersley's points; frame cos as in Filament's cmgen, sin as in
-    /// three.js, Unreal and LearnOpenGL
+    /// three.js, Unreal and LearnOpenGL. wrong-side: glass with refractions to the side of v, as in
+    /// Cycles' ggx_glass_inv_E
     #[arg(
-        long, value_name = "hammersley,n=N,frame=cos|sin",
+        long, value_name = "hammersley,n=N,frame=cos|sin or wrong-side",
         conflicts_with_all = ["rule", "tolerance"]
     )]
     estimator: Option<String>,

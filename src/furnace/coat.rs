@@ -1,5 +1,6 @@
-//! Seven formulas for a Lambertian base of albedo ρ below a rough dielectric interface, in the white
-//! furnace: what each gives back, and whether it is the same for light that goes the other way.
+//! Seven formulas for a Lambertian base of albedo ρ below a rough dielectric interface, in the
+//! white furnace: what each gives back, and whether it is the same for light that goes the other
+//! way.
 //!
 //! Each is f_d = ρ' a(v) b(l)/π beside the interface's own reflection S(v), and gives back
 //!
@@ -83,8 +84,8 @@ struct Direction {
     average: f64,
 }
 
-/// Every formula with every albedo of the base over a grid, for the interface to a medium with index
-/// of refraction `ior`. An error for a lobe that has no such split.
+/// Every formula with every albedo of the base over a grid, for the interface to a medium with
+/// index of refraction `ior`. An error for a lobe that has no such split.
 pub fn coated(
     lobe: Microfacet,
     ior: f64,

@@ -2,8 +2,8 @@
 //! that a surface reflects.
 
 use super::{Field, Integrand};
-use crate::brdf::interface::Side;
-use crate::brdf::{Microfacet, Ndf};
+use crate::brdf::interface::{Side, TransmissionMasking};
+use crate::brdf::{Fresnel, Microfacet, Ndf};
 use crate::numeric::quadrature::gauss_legendre::gauss_legendre;
 use crate::numeric::quadrature::tanh_sinh::tanh_sinh;
 
@@ -26,25 +26,30 @@ pub fn average_nodes() -> Vec<(f64, f64)> {
     half(|cube| cube).chain(half(|cube| 1.0 - cube)).collect()
 }
 
-/// (n·v, weight) of the directions at an α: of glass in pieces, tanh-sinh in each.
+/// (n·v, weight) of the directions at an α: of an interface of dielectrics in pieces, tanh-sinh in
+/// each.
 ///
-/// An albedo of an interface bends within α of grazing incidence and of the critical angle θ_c, and
-/// where θ_v = π/2 - θ_c or π/2 - 2 θ_c, at which the critical angle of a half vector meets the
-/// horizon.
+/// Its albedo bends within α of grazing incidence, where F rises to 1 as c falls below √k, k = η² -
+/// 1, and from inside within α of the critical angle θ_c, and where θ_v = π/2 - θ_c or π/2 - 2 θ_c,
+/// at which the critical angle of a half vector meets the horizon.
 pub fn average_nodes_at(integrand: Integrand, alpha: f64) -> Vec<(f64, f64)> {
-    let Integrand::Glass(interface) = integrand else { return average_nodes() };
     let mut breaks = vec![0.0, alpha, WIDE * alpha, 1.0];
-    if interface.side() == Side::Inside {
-        let (eta, critical) = (interface.eta(), interface.critical());
-        breaks.extend([eta, critical, 2.0 * eta * critical]);
-        for off in [alpha, WIDE * alpha] {
-            breaks.extend([critical - off, critical + off]);
+    match integrand {
+        Integrand::Glass(interface) if interface.side() == Side::Inside => {
+            let (eta, critical) = (interface.eta(), interface.critical());
+            breaks.extend([eta, critical, 2.0 * eta * critical]);
+            for off in [alpha, WIDE * alpha] {
+                breaks.extend([critical - off, critical + off]);
+            }
         }
+        Integrand::Glass(interface) => breaks.push(interface.k().sqrt()),
+        Integrand::Specular(_, Fresnel::Dielectric(medium)) => breaks.push(medium.k().sqrt()),
+        Integrand::Specular(..) | Integrand::Diffuse(_) => return average_nodes(),
     }
     breaks.retain(|at| (0.0..=1.0).contains(at));
     breaks.sort_by(f64::total_cmp);
     breaks.dedup();
-    let rule = tanh_sinh(PIECE_NODES);
+    let rule = tanh_sinh(if is_smooth(integrand) { PIECE_NODES } else { 2 * PIECE_NODES });
     let nodes = breaks.windows(2).flat_map(|ends| {
         let (from, length) = (ends[0], ends[1] - ends[0]);
         rule.iter().map(move |node| {
@@ -55,14 +60,27 @@ pub fn average_nodes_at(integrand: Integrand, alpha: f64) -> Vec<(f64, f64)> {
     nodes.collect()
 }
 
-/// Directions in each piece of an average of glass.
-const PIECE_NODES: usize = 40;
+/// Whether it is of GGX with a rational masking term: Gaussian slopes and the beta function take
+/// more directions.
+fn is_smooth(integrand: Integrand) -> bool {
+    match integrand {
+        Integrand::Glass(interface) => {
+            interface.lobe().ndf == Ndf::Ggx
+                && interface.transmission() != TransmissionMasking::Beta
+        }
+        Integrand::Specular(lobe, _) => lobe.ndf == Ndf::Ggx,
+        Integrand::Diffuse(_) => true,
+    }
+}
+
+/// Directions in each piece of such an average.
+const PIECE_NODES: usize = 48;
 
 /// The end of a bend of width α, in α: found by trial.
 const WIDE: f64 = 12.0;
 
 /// The largest error of the nodes' quadrature: 1e-12, but for Walter's term, which jumps between
-/// two nodes.
+/// two nodes. What passes an interface the one way and the other agrees within that.
 pub fn average_error(integrand: Integrand) -> f64 {
     match integrand {
         Integrand::Specular(Microfacet { ndf: Ndf::BeckmannWalter, .. }, _) => 1e-6,

@@ -263,8 +263,8 @@ const GLASS_BECKMANN: Columns = Columns {
 
 /// The beta function falls like a power of n·l that is no whole number, which no rule resolves.
 const GLASS_BETA: Columns = Columns {
-    g112: all(2e-2),
-    g560: all(5e-4),
+    g112: all(3e-2),
+    g560: all(1e-3),
     g904: all(1e-4),
     g2240: all(4e-5),
     g4536: all(8e-6),
@@ -287,7 +287,7 @@ const GLASS_LAYER: Columns = Columns {
     g560: all(1e-4),
     g904: all(3e-5),
     g2240: all(8e-6),
-    g4536: all(1.3e-6),
+    g4536: all(2e-6),
     reference: all(1e-12),
     ..WITHOUT_GLASS
 };

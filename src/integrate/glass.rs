@@ -219,7 +219,9 @@ impl<R: Real> View<R> {
         let View { interface, mu, area_v, alpha, k, eta, .. } = *self;
         let g = g2.max(R::from(0.0)).sqrt();
         let sum = (c + g).max(R::from(SMALLEST_ROOT));
-        let x = ((mu + k / (sum * ring.secant)) / eta).max(R::from(0.0)).min(R::from(1.0));
+        let x = (mu + k / (sum * ring.secant)) / eta;
+        let least = if interface.counts_wrong_side() { -x } else { R::from(0.0) };
+        let x = x.max(least).min(R::from(1.0));
         c * self.transmittance(c, g) * interface.transmitted_visibility(x, mu, area_v, alpha)
     }
 
@@ -281,7 +283,9 @@ impl<R: Real> View<R> {
                 // x > 0 where c > (κ² + cos²θ_c)/(2κ), κ = μ/cos θ_h, which lies this far above
                 // cos θ_c where κ is below it.
                 let kappa = mu * ring.secant;
-                let lack = (critical - kappa).max(zero);
+                // Whoever counts what leaves on the wrong side has no horizon.
+                let limited = !self.interface.counts_wrong_side();
+                let lack = if limited { (critical - kappa).max(zero) } else { zero };
                 let lift = lack * lack / (kappa.max(R::from(SMALLEST_SWING)) * 2.0);
                 let limit = zero_at(cone.scale, cone.square + lift / cone.scale);
                 let part = |azimuth, rest| {

@@ -35,7 +35,8 @@ choice!(Frame, "frame", {
 const LARGEST: u32 = 1 << 20;
 
 /// The words of an estimator.
-const WORDS: &str = "hammersley,n=N,frame=cos or sin, with N from 1 to 1048576";
+const WORDS: &str = "hammersley,n=N,frame=cos or sin, with N from 1 to 1048576, or of glass \
+                     wrong-side";
 
 /// A point: the part of φ that enters, and the share of D n·h below its θ.
 #[derive(Clone, Copy, Debug)]

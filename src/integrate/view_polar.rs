@@ -240,9 +240,9 @@ impl<R: Real> View<R> {
         c * s * passed * 4.0 * inner
     }
 
-    /// ∫ D (G₂/(4μ)) dψ over the circle where tan²(ψ/2) is beyond `first`, and where low is negative
-    /// below high/-low. `visible`: G₂/(4μ) at cos²(ψ/2), with the distance of sin²(ψ/2) from that
-    /// end.
+    /// ∫ D (G₂/(4μ)) dψ over the circle where tan²(ψ/2) is beyond `first`, and where low is
+    /// negative below high/-low. `visible`: G₂/(4μ) at cos²(ψ/2), with the distance of sin²(ψ/2)
+    /// from that end.
     #[inline(always)]
     fn azimuth(
         &self,

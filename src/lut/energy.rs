@@ -26,10 +26,11 @@
 //!
 //! *Between base and interface.* At the interface to a medium of index n, S is that of the exact
 //! equations, and the light that a base of albedo ρ reflects meets the interface from inside, which
-//! sends a share K of it back. A base in a furnace sees diffuse radiance L; by reciprocity the share
-//! that leaves towards v is (1-S(v))/n², so that on average 1 - K = (1-S_avg)/n², without a table of
-//! the inside (Saunderson 1942 for smooth interfaces). Whatever returns meets the base again: what
-//! leaves is 1 + ρK + ρ²K² + … = 1/(1-ρK) times what a base that takes no light back would send, and
+//! sends a share K of it back. A base in a furnace sees diffuse radiance L; by reciprocity the
+//! share that leaves towards v is (1-S(v))/n², so that on average 1 - K = (1-S_avg)/n², without a
+//! table of the inside (Saunderson 1942 for smooth interfaces). Whatever returns meets the base
+//! again: what leaves is 1 + ρK + ρ²K² + … = 1/(1-ρK) times what a base that takes no light back
+//! would send, and
 //!
 //! f_d = R(l) R(v) ρ_eff/π, R as in (c), ρ_eff = ρ (1-K)/(1 - ρK).
 //!

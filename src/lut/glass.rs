@@ -4,8 +4,8 @@
 //! 2007. E = R + T is what one scattering on the surface keeps.
 //!
 //! *Multiple scattering.* Renderers scale both by 1/E (Turquin 2019; Cycles), which is not
-//! reciprocal, or add a lobe for the rest (Kulla and Conty 2017). With i for the side of v and o for
-//! the other, of what is lost q is reflected:
+//! reciprocal, or add a lobe for the rest (Kulla and Conty 2017). With i for the side of v and o
+//! for the other, of what is lost q is reflected:
 //!
 //! f_r = q (1-E_i(v))(1-E_i(l)) / (π (1-E_i,avg)),
 //! f_t = (1-q) (1-E_i(v))(1-E_o(l)) / (π (1-E_o,avg)).

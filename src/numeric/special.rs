@@ -1,7 +1,7 @@
 //! Special functions of the models. In f64 they come from libm, the same bits everywhere, but for
-//! those that integrands take at every evaluation: these are written out, so that they run in vector
-//! registers. Their twins on a device use only + - × ÷, since a driver's own exp
-//! and log may err by dozens of ulps.
+//! those that integrands take at every evaluation: these are written out, so that they run in
+//! vector registers. Their twins on a device use only + - × ÷, since a driver's own exp and log may
+//! err by dozens of ulps.
 
 use crate::numeric::lanes::{ROUND_F64, Real};
 use std::f64::consts::{LN_2, LOG2_E, PI, SQRT_2};

@@ -289,7 +289,8 @@ fn all(gpu: &Gpu, side: Side) -> Result<(), Failed> {
     twins(interface, &nodes).iter().try_for_each(|twin| compare(gpu, &source, &data, twin))
 }
 
-/// Interfaces that differ in all that a kernel is put together from, and in the index of refraction.
+/// Interfaces that differ in all that a kernel is put together from, and in the index of
+/// refraction.
 fn interfaces() -> Result<Vec<Interface>, Failed> {
     let lobes = [
         ggx(Masking::HeightCorrelated),

@@ -1,8 +1,10 @@
 //! Rough interfaces on the CPU.
 
 use super::{Points, Work, in_groups};
+use crate::brdf::Ndf;
 use crate::brdf::interface::Interface;
 use crate::integrate::Integrals;
+use crate::integrate::double_exponential::DoubleExponentialRule;
 use crate::integrate::glass::{GlassNodes, glass};
 use crate::integrate::rule::{Method, Rule};
 use crate::integrate::rules::REFERENCE_NODES;
@@ -25,14 +27,23 @@ impl Glass {
     pub fn new(interface: Interface, rule: &Rule) -> Self {
         let nodes = match rule.method {
             Method::Glass(rule) => Nodes::AboutNormal(rule.nodes(interface.side())),
-            Method::DoubleExponential(rule) => Nodes::AboutView(ViewPolarNodes::of(rule)),
+            Method::DoubleExponential(rule) => Nodes::AboutView(about_view(interface, rule)),
             Method::HalfVectors(_)
             | Method::LightDirections(_)
             | Method::Interpolant(_)
-            | Method::ClosedForm => Nodes::AboutView(ViewPolarNodes::of(REFERENCE_NODES)),
+            | Method::ClosedForm => Nodes::AboutView(about_view(interface, REFERENCE_NODES)),
         };
         Glass { interface, nodes }
     }
+}
+
+/// The nodes about v; Gaussian tails take more of them in the outer variable.
+fn about_view(interface: Interface, rule: DoubleExponentialRule) -> ViewPolarNodes {
+    let outer = match interface.lobe().ndf {
+        Ndf::Ggx => rule.outer,
+        _ => rule.outer * 7 / 5,
+    };
+    ViewPolarNodes::of(DoubleExponentialRule { outer, ..rule })
 }
 
 impl Work for Glass {

@@ -38,8 +38,8 @@ struct Line {
     /// The least and the most that comes back beyond what is right.
     lost: f64,
     made: f64,
-    /// The averages over all directions at roughness 0, 1/2 and 1.
-    averages: [f64; 3],
+    /// (roughness, average over all directions) at the ends of the grid and between.
+    averages: [(f64, f64); 3],
     reciprocal: bool,
 }
 
@@ -78,16 +78,14 @@ pub(super) fn run(arguments: &FurnaceArgs, ior: f64) -> Result<()> {
         })
         .collect();
     if let Some(name) = &arguments.output {
-        // They come albedo by albedo; the picture's rows are the formulas.
-        let of_coat = |coat| deviations.iter().skip(coat).step_by(Coat::ALL.len());
         let scaled = |deviation: &Vec<f64>| deviation.iter().map(|off| off / SCALE).collect();
-        let values: Vec<Vec<f64>> = (0..Coat::ALL.len()).flat_map(of_coat).map(scaled).collect();
-        output::write_picture(name, &panels(&values, (size, size), rhos.len(), diverging))?;
+        let values: Vec<Vec<f64>> = deviations.iter().map(scaled).collect();
+        output::write_picture(name, &panels(&values, (size, size), Coat::ALL.len(), diverging))?;
     }
     let line = |(of, deviation): (&Coated, &Vec<f64>)| Line {
         formula: of.coat,
         rho: of.rho,
-        lost: -deviation.iter().copied().fold(0.0, f64::min),
+        lost: deviation.iter().fold(0.0, |lost, off| lost.max(-off)),
         made: deviation.iter().copied().fold(0.0, f64::max),
         averages: averages(of, &grid),
         reciprocal: of.asymmetry <= SYMMETRIC,
@@ -102,23 +100,27 @@ pub(super) fn run(arguments: &FurnaceArgs, ior: f64) -> Result<()> {
     if arguments.json { print_json(&report) } else { print(&describe(&report)) }
 }
 
-/// The averages at the first row, the one nearest to roughness 1/2, and the last.
-fn averages(of: &Coated, grid: &Grid) -> [f64; 3] {
-    let middle = grid.alphas.partition_point(|&alpha| roughness_of(alpha) < 0.5);
-    [0, middle, grid.alphas.len() - 1].map(|row| of.averages[row])
+/// The averages at the first row, the middle one, and the last.
+fn averages(of: &Coated, grid: &Grid) -> [(f64, f64); 3] {
+    let rows = grid.alphas.len();
+    [0, rows / 2, rows - 1].map(|row| (roughness_of(grid.alphas[row]), of.averages[row]))
 }
 
 fn describe(report: &Report) -> String {
     let Report { model, masking, ior, formulas, .. } = report;
+    let at: String = formulas.first().map_or(String::new(), |line| {
+        line.averages.map(|(roughness, _)| format!("{roughness:<8.2}")).concat()
+    });
     let mut text = format!(
-        "{model}, {masking}, n = {ior}, on a Lambertian base of albedo rho\n\
-         rho   formula            lost      made     average at r = 0, 1/2, 1   reciprocal"
+        "{model}, {masking}, n = {ior}, on a Lambertian base of albedo rho: what the formulas lose \
+         and make, at\nmost, beside the last; and their averages at three roughnesses\n\
+         rho   formula             lost    made    r = {at}reciprocal"
     );
-    for Line { formula, rho, lost, made, averages: [smooth, half, rough], reciprocal } in formulas {
+    for Line { formula, rho, lost, made, averages, reciprocal } in formulas {
         let (formula, reciprocal) = (formula.word(), if *reciprocal { "yes" } else { "no" });
+        let averages = averages.map(|(_, average)| format!("{average:<8.4}")).concat();
         text.push_str(&format!(
-            "\n{rho:<5} {formula:<17} {lost:>6.4}    {made:>6.4}     {smooth:.4}  {half:.4}  \
-             {rough:.4}     {reciprocal}"
+            "\n{rho:<5} {formula:<17} {lost:>6.4}  {made:>6.4}      {averages}{reciprocal}"
         ));
     }
     text

@@ -1,10 +1,10 @@
 //! Where rules err most, measured by their bounds: a search that climbs towards the largest
-//! error/bound of every rule, integrand and channel, on the CPU and on devices. Whoever changes a rule
-//! or a bound learns from it what the bound has to be.
+//! error/bound of every rule, integrand and channel, on the CPU and on devices. Whoever changes a
+//! rule or a bound learns from it what the bound has to be.
 //!
-//! A hunt has one integrand, the rules that are measured against one truth, and the places where each
-//! has been worst. A round tries fresh starts and places near the worst ones, every rule at every
-//! place.
+//! A hunt has one integrand, the rules that are measured against one truth, and the places where
+//! each has been worst. A round tries fresh starts and places near the worst ones, every rule at
+//! every place.
 
 mod places;
 
@@ -144,8 +144,8 @@ pub fn check(search: &Search) -> Result<()> {
     }
 }
 
-/// A hunt for each integrand on the CPU, one for the rule that is measured by another truth, one for the
-/// devices.
+/// A hunt for each integrand on the CPU, one for the rule that is measured by another truth, one
+/// for the devices.
 fn hunts<'a>(seed: u64, rules: &[(Integrand, Rule)], devices: &'a [Gpu]) -> Vec<Hunt<'a>> {
     let mut hunts: Vec<Hunt> = Vec::new();
     for &(of, rule) in rules {
