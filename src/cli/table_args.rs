@@ -91,8 +91,9 @@ pub struct TableArgs {
     #[arg(long, value_name = "AXIS")]
     y: Option<String>,
     /// The axis from slice to slice, in the same words: PARAMETER f0 of a split, or ior of a split
-    /// or of glass, from min to max=3; MAPPING of ior also sqrt-f0 (t = sqrt((n-1)/(n+1)), to 100)
-    /// or piecewise (1/max to 1, seen from inside, and 1 to max) [default: none]
+    /// or of glass, from min to max=3; MAPPING of ior also sqrt-f0 (even steps of
+    /// sqrt((n-1)/(n+1)), without max to 99.5) or piecewise (1/max to 1, seen from inside, and 1 to
+    /// max) [default: none]
     #[arg(long, value_name = "AXIS")]
     z: Option<String>,
     /// Storage of the values [default: the first for the format]

@@ -6,15 +6,15 @@
 //! mapping carries t to the parameter.
 
 mod expression;
+mod words;
 
 pub use expression::{SHADING, Words};
+pub use words::AXIS_WORDS;
 
-use crate::choice::{Choice, choice};
+use crate::choice::choice;
 use crate::error::{Error, Result};
-use crate::units::{Alpha, Cosine, F0, Ior, PerceptualRoughness, short};
-use std::fmt;
+use crate::units::{Alpha, Cosine, F0, Ior, PerceptualRoughness};
 use std::ops::RangeInclusive;
-use std::str::FromStr;
 
 /// The largest number of texels along an axis.
 pub const LARGEST_SIZE: usize = 16384;
@@ -62,7 +62,8 @@ pub enum Mapping {
     Sqrt,
     /// t = √(1-p), so p = 1 - t²: t = 0 at p = 1.
     SqrtComplement,
-    /// t = √((n-1)/(n+1)), the fourth root of F0, of an index of refraction n: Cycles, EEVEE.
+    /// Even steps of √((n-1)/(n+1)), the fourth root of F0, of an index of refraction n from min to
+    /// max; without max they lead to infinity, and n stays at 99.5 from 0.99 on: Cycles, EEVEE.
     SqrtF0,
     /// An index of refraction from 1/max to 1 on one half, and from 1 to max on the other: OSPRay,
     /// Adobe.
@@ -73,7 +74,7 @@ choice!(Mapping, "axis", {
     Linear = "linear", "p = t";
     Sqrt = "sqrt", "t = sqrt(p)";
     SqrtComplement = "sqrt-complement", "t = sqrt(1-p)";
-    SqrtF0 = "sqrt-f0", "t = sqrt((n-1)/(n+1)), of ior";
+    SqrtF0 = "sqrt-f0", "even steps of sqrt((n-1)/(n+1)), of ior";
     Piecewise = "piecewise", "ior from 1/max to 1 and from 1 to max";
 });
 
@@ -133,10 +134,18 @@ const fn is_ior(parameter: Parameter) -> bool {
     matches!(parameter, Parameter::Ior)
 }
 
-/// The max of an axis that names none: of an index of refraction OSPRay's, or all but infinity.
+/// The index at z = √((n-1)/(n+1)) = 0.99, beyond which Cycles' axis stays there.
+const CYCLES_MAX: f64 = 1.9801 / 0.0199;
+
+/// z = √((n-1)/(n+1)) of an index of refraction.
+fn root_of_f0(n: f64) -> f64 {
+    ((n - 1.0) / (n + 1.0)).max(0.0).sqrt()
+}
+
+/// The max of an axis that names none: of an index of refraction OSPRay's or Cycles'.
 const fn default_max(parameter: Parameter, mapping: Mapping) -> f64 {
     match (parameter, mapping) {
-        (Parameter::Ior, Mapping::SqrtF0) => 100.0,
+        (Parameter::Ior, Mapping::SqrtF0) => CYCLES_MAX,
         (Parameter::Ior, _) => 3.0,
         _ => f64::INFINITY,
     }
@@ -227,11 +236,21 @@ impl Axis {
             Mapping::Linear => along(t),
             Mapping::Sqrt => along(t * t),
             Mapping::SqrtComplement => along((1.0 - t) * (1.0 + t)),
-            Mapping::SqrtF0 => (1.0 + t * t) / ((1.0 - t) * (1.0 + t)),
+            Mapping::SqrtF0 => {
+                let (z0, z1) = self.ends_of_z();
+                let z = z0 + (z1 - z0) * t;
+                (1.0 + z * z) / ((1.0 - z) * (1.0 + z)).max(f64::MIN_POSITIVE)
+            }
             Mapping::Piecewise if t < 0.5 => return (1.0 - 2.0 * t) / max + 2.0 * t,
             Mapping::Piecewise => 1.0 + (max - 1.0) * (2.0 * t - 1.0),
         };
         p.max(min).min(max)
+    }
+
+    /// √((n-1)/(n+1)) at either end of [`Mapping::SqrtF0`].
+    fn ends_of_z(&self) -> (f64, f64) {
+        let AxisSpec { min, max, .. } = self.spec;
+        (root_of_f0(min), if max == CYCLES_MAX { 1.0 } else { root_of_f0(max) })
     }
 
     /// The fractional texel at which the parameter is `p`: the inverse of [`Axis::value`] where
@@ -243,7 +262,10 @@ impl Axis {
             Mapping::Linear => along(),
             Mapping::Sqrt => along().max(0.0).sqrt(),
             Mapping::SqrtComplement => (1.0 - along()).max(0.0).sqrt(),
-            Mapping::SqrtF0 => ((p - 1.0) / (p + 1.0)).max(0.0).sqrt(),
+            Mapping::SqrtF0 => {
+                let (z0, z1) = self.ends_of_z();
+                (root_of_f0(p) - z0) / (z1 - z0)
+            }
             Mapping::Piecewise if p < 1.0 => 0.5 * (p * max - 1.0) / (max - 1.0),
             Mapping::Piecewise => 0.5 + 0.5 * (p - 1.0) / (max - 1.0),
         };
@@ -290,14 +312,17 @@ impl Axis {
             Mapping::Linear => "t".into(),
             Mapping::Sqrt => "t^2".into(),
             Mapping::SqrtComplement => "1 - t^2".into(),
-            Mapping::SqrtF0 => "(1 + t^2)/(1 - t^2)".into(),
+            Mapping::SqrtF0 => {
+                let (z0, z1) = self.ends_of_z();
+                format!("(1 + z^2)/(1 - z^2), z = {z0:?} + ({z1:?} - {z0:?}) t")
+            }
             Mapping::Piecewise => {
                 format!("t < 1/2 ? (1 - 2t)/{max:?} + 2t : 1 + ({max:?} - 1) (2t - 1)")
             }
         };
         let p = match (self.spec.parameter, self.spec.mapping) {
             (Parameter::Ior, Mapping::Piecewise) => p,
-            (Parameter::Ior, Mapping::SqrtF0) => format!("min(max({p}, {min:?}), {max:?})"),
+            (Parameter::Ior, Mapping::SqrtF0) => format!("the least of {max:?} and {p}"),
             (Parameter::Ior, _) => format!("{min:?} + ({max:?} - {min:?}) ({p})"),
             _ => {
                 let p = if min > 0.0 { format!("max({p}, {min:?})") } else { p };
@@ -313,82 +338,3 @@ impl Axis {
 
 /// The offsets of nodes: up to two texels beyond an end.
 const OFFSETS: RangeInclusive<f64> = -2.0..=2.0;
-
-/// The words of an axis, for `--help` and errors.
-pub const AXIS_WORDS: &str = "PARAMETER[,MAPPING][,NODES][,flip][,unclamped][,min=X][,max=X] with \
-                              PARAMETER nov, critical, roughness, alpha, exponent or (along z) f0 \
-                              or ior; MAPPING linear, sqrt (t = sqrt(p)), sqrt-complement (t = \
-                              sqrt(1-p)) or of ior sqrt-f0 or piecewise; NODES centres, edges or \
-                              offset=X with X in [-2, 2]; min=X with X in [0, 1]; max=X above 0, \
-                              from min up; of ior min and max from 1 up";
-
-impl FromStr for AxisSpec {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self> {
-        let wrong = |got: &str| {
-            Error::bad_input("axis", AXIS_WORDS, format!("'{got}' in '{text}'"), "use those words")
-        };
-        let mut words = text.split(',').map(str::trim);
-        let parameter = words.next().unwrap_or_default();
-        let mut spec = AxisSpec::of(Parameter::named(parameter).map_err(|_| wrong(parameter))?);
-        // Their ranges are checked where an axis is made.
-        let number = |text: &str| text.parse::<f64>().map_err(|_| wrong(text));
-        let mut given = Vec::new();
-        for word in words {
-            let kind = match word.split_once('=') {
-                Some((key, _)) if key != "offset" => key,
-                None if word == "flip" || word == "unclamped" => word,
-                Some(_) | None if Mapping::named(word).is_err() => "nodes",
-                _ => "mapping",
-            };
-            if given.contains(&kind) {
-                return Err(wrong(word));
-            }
-            given.push(kind);
-            match word.split_once('=') {
-                None => match word {
-                    "centres" => spec.nodes = Nodes::Offset(0.5),
-                    "edges" => spec.nodes = Nodes::Edges,
-                    "flip" => spec.flip = true,
-                    "unclamped" => spec.clamp = false,
-                    _ => spec.mapping = Mapping::named(word).map_err(|_| wrong(word))?,
-                },
-                Some(("offset", x)) => spec.nodes = Nodes::Offset(number(x)?),
-                Some(("min", x)) => spec.min = number(x)?,
-                Some(("max", x)) => spec.max = number(x)?,
-                Some(_) => return Err(wrong(word)),
-            }
-        }
-        if !given.contains(&"max") {
-            spec.max = default_max(spec.parameter, spec.mapping);
-        }
-        Ok(spec)
-    }
-}
-
-impl fmt::Display for AxisSpec {
-    /// The words that [`AxisSpec::from_str`] reads back to the same axis.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{},{}", self.parameter, self.mapping)?;
-        match self.nodes {
-            Nodes::Edges => write!(f, ",edges")?,
-            Nodes::Offset(0.5) => write!(f, ",centres")?,
-            Nodes::Offset(offset) => write!(f, ",offset={}", short(offset))?,
-        }
-        if self.flip {
-            write!(f, ",flip")?;
-        }
-        if !self.clamp {
-            write!(f, ",unclamped")?;
-        }
-        // What is no min or max is shown too, since an error quotes it.
-        if self.min != AxisSpec::of(self.parameter).min {
-            write!(f, ",min={}", short(self.min))?;
-        }
-        if self.max != default_max(self.parameter, self.mapping) {
-            write!(f, ",max={}", short(self.max))?;
-        }
-        Ok(())
-    }
-}

@@ -90,9 +90,17 @@ impl Finding {
 pub fn everything() -> Vec<(Integrand, Rule)> {
     let with_every_lobe = |fresnel| Microfacet::all().map(move |lobe| (lobe, fresnel));
     let lobes = Fresnel::samples().into_iter().flat_map(with_every_lobe);
-    let lobes = lobes.map(|(lobe, fresnel)| Integrand::Specular(lobe, fresnel));
+    let lobes = lobes
+        .filter(|&(lobe, fresnel)| is_told_apart(lobe, fresnel))
+        .map(|(lobe, fresnel)| Integrand::Specular(lobe, fresnel));
     let interfaces = Interface::samples().into_iter().map(Integrand::Glass);
     lobes.chain(interfaces).flat_map(with_rules).collect()
+}
+
+/// Other Fresnel models than Schlick's know no masking term: one of each distribution will do.
+fn is_told_apart(lobe: Microfacet, fresnel: Fresnel) -> bool {
+    matches!(fresnel, Fresnel::Schlick | Fresnel::SchlickF82)
+        || lobe.masking == lobe.ndf.default_masking()
 }
 
 /// Every rule that serves for an integrand.

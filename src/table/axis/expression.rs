@@ -46,7 +46,9 @@ impl Axis {
             }
             Mapping::SqrtF0 => {
                 let root = format!("({n} - {one}) / ({n} + {one})");
-                (words.sqrt)(&(words.max)(&root, &number(0.0)))
+                let z = (words.sqrt)(&(words.max)(&root, &number(0.0)));
+                let (z0, z1) = self.ends_of_z();
+                format!("({z} - {}) * {}", number(z0), number(1.0 / (z1 - z0)))
             }
             Mapping::Piecewise => {
                 // n = min(n, 1) + max(n, 1) - 1.
