@@ -77,7 +77,7 @@ const NEAR: f64 = 0.3;
 /// The slope of a half vector on the horizon, scaled or not.
 const FAR: f64 = 1e18;
 
-/// tan of an angle with this sine and cosine, at most [`FAR`], which stands for all beyond.
+/// tan of an angle with this sine and cosine, at most `FAR`, which stands for all beyond.
 #[inline(always)]
 pub fn tangent<R: Real>(sine: R, cosine: R) -> R {
     let (zero, far) = (R::from(0.0), R::from(FAR));
