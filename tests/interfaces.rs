@@ -226,7 +226,6 @@ fn glass_is_baked_with_its_words_and_refused_with_reasons() {
         ("--lut glass --ior 0.9", "index of refraction"),
         ("--lut glass --ior 100.5", "1 to 100"),
         ("--lut glass --ior 1.5,1.5", "different values"),
-        ("--lut glass --z ior --size 4x4x2", "a list of indices"),
         ("--lut glass --fresnel f82", "schlick for energy, glass"),
         ("--side inside", "add --lut glass"),
         ("--lut glass --f0 0.04", "the split of energy"),

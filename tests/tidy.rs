@@ -157,7 +157,7 @@ fn functions(text: &str) -> Vec<&str> {
 fn every_wgsl_function_has_a_rust_twin_and_a_test() {
     let rust: Vec<(String, String)> = files("src");
     let rust: Vec<&str> = rust.iter().flat_map(|(_, text)| functions(text)).collect();
-    let tests: String = ["twins", "model_twins", "sampling_twins", "stability"]
+    let tests: String = ["twins", "model_twins", "sampling_twins", "stability", "glass_twins"]
         .map(|name| file(&format!("tests/vulkan/{name}.rs")))
         .concat();
     let mut count = 0;

@@ -27,9 +27,7 @@ pub mod ring;
 pub use self::nodes::{Counts, GlassNodes, GlassRule};
 
 use self::nodes::ExitNodes;
-use self::ring::{
-    Azimuth, Ring, SMALLEST_SWING, Zero, beyond, cosine_at, either, interval, zero_at,
-};
+use self::ring::{Ring, SMALLEST_SWING, Zero, beyond, cosine_at, either, interval, zero_at};
 use super::Integrals;
 use super::half_vectors::{TAIL_DEPTH, radial_weight};
 use crate::brdf::fresnel::{SMALLEST_ROOT, reflectance_from};
@@ -47,7 +45,7 @@ pub fn glass<R: Real>(
     alpha: R,
     nodes: &GlassNodes,
 ) -> Integrals<2, R> {
-    let view = View::new(interface, mu, from_critical, alpha);
+    let view = view_of(interface, mu, from_critical, alpha);
     let reflected = view.pieces(view.reflected_breaks(), &nodes.reflected, View::reflected_ring);
     let transmitted =
         view.pieces(view.transmitted_breaks(), &nodes.transmitted, View::transmitted_ring);
@@ -85,23 +83,23 @@ pub fn tangent<R: Real>(sine: R, cosine: R) -> R {
     zero.select_below(cosine, tangent, far)
 }
 
-impl<R: Real> View<R> {
-    /// The view at n·v = `mu`: see [`glass`].
-    #[inline(always)]
-    pub fn new(interface: Interface, mu: R, from_critical: R, alpha: R) -> Self {
-        View {
-            interface,
-            mu,
-            sv: (mu.complement() * (mu + 1.0)).sqrt(),
-            from_critical,
-            alpha,
-            area_v: interface.lobe().masking_projected_area(mu, alpha),
-            k: R::from(interface.k()),
-            eta: R::from(interface.eta()),
-            critical: R::from(interface.critical()),
-        }
+/// The view at n·v = `mu`: see [`glass`].
+#[inline(always)]
+pub fn view_of<R: Real>(interface: Interface, mu: R, from_critical: R, alpha: R) -> View<R> {
+    View {
+        interface,
+        mu,
+        sv: (mu.complement() * (mu + 1.0)).sqrt(),
+        from_critical,
+        alpha,
+        area_v: interface.lobe().masking_projected_area(mu, alpha),
+        k: R::from(interface.k()),
+        eta: R::from(interface.eta()),
+        critical: R::from(interface.critical()),
     }
+}
 
+impl<R: Real> View<R> {
     /// tan |θ_v - θ_c| and tan(θ_v + θ_c).
     #[inline(always)]
     pub fn touches(&self) -> [R; 2] {
@@ -256,12 +254,17 @@ impl<R: Real> View<R> {
                 let root = zero.select_below(cone.square, one, zero)
                     * horizon.square.select_below(cone.square, one, zero);
                 let part = either(root, t2, &nodes.root, &nodes.even, partly);
-                let whole = |azimuth: Azimuth<R>| {
-                    self.seen(ring, cosine_at(horizon, azimuth, horizon.t2 - azimuth.t2))
-                };
-                part + beyond(t2, horizon.t2, nodes, whole)
+                part + self.reflected_whole(ring, t2, horizon, nodes)
             }
         }
+    }
+
+    /// The same from t² = `t2` to the horizon, where light is reflected whole.
+    #[inline(always)]
+    pub fn reflected_whole(&self, ring: Ring<R>, t2: R, horizon: Zero<R>, nodes: &ExitNodes) -> R {
+        beyond(t2, horizon.t2, nodes, |azimuth| {
+            self.seen(ring, cosine_at(horizon, azimuth, horizon.t2 - azimuth.t2))
+        })
     }
 
     /// ∫ c (1 - F) (G₂/(4μ)) dφ

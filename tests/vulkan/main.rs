@@ -10,6 +10,7 @@ mod certified;
 mod common;
 mod faults;
 mod glass;
+mod glass_twins;
 mod model_twins;
 mod previews;
 mod sampling_twins;
@@ -38,6 +39,7 @@ fn main() {
     let tests: Vec<DeviceTest> = [
         twins::TESTS,
         glass::TESTS,
+        glass_twins::TESTS,
         sampling_twins::TESTS,
         stability::TESTS,
         tables::TESTS,
