@@ -184,7 +184,7 @@ fn wrong_configurations_say_where() {
         ("[[table]]\noutput = 'a.exr'\ntolerance = 1e-3\nrule = 'h56'", "got both"),
         ("[[table", "line 1"),
         ("[[table]]\noutput = 'a.exr'\ncertify = 'perhaps'", "expected on, off, got 'perhaps'"),
-        ("[[table]]\noutput = 'a.exr'\nrule = 'simpson'", "g3840, got 'simpson'"),
+        ("[[table]]\noutput = 'a.exr'\nrule = 'simpson'", "g4536, got 'simpson'"),
         ("[[table]]\noutput = 'a.exr'\nmodel = 'phong'", "charlie, got 'phong'"),
         ("[[table]]\noutput = 'a.exr'\nmasking = 'none'", "neubelt, got 'none'"),
         (
@@ -267,7 +267,7 @@ fn wrong_values_are_refused_with_what_was_expected() {
     refused("bake -o table.bmp", 4, &[".exr, .png, .ktx2", "'table.bmp'"]);
     refused("bake --format bmp", 2, &["exr, png", "'bmp'"]);
     refused("bake --x nov --y nov", 4, &["x = nov, y = nov"]);
-    refused("bake --x mu", 4, &["nov, roughness, alpha, exponent", "got 'mu'"]);
+    refused("bake --x mu", 4, &["nov, critical, roughness, alpha, exponent", "got 'mu'"]);
     refused("bake --y roughness,offset=1e-9", 4, &["texel 0", "raise the axis's min"]);
     refused("bake --threads 0", 2, &["1..=1024"]);
     refused("bake --threads 1025", 2, &["1..=1024"]);
