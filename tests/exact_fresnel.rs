@@ -173,7 +173,7 @@ fn words_are_read_back_as_they_are_written() {
         "f82:1",
         "dielectric",
         "dielectric:0.9",
-        "dielectric:4.1",
+        "dielectric:100.1",
         "dielectric:inf",
         "dielectric:1.5,2",
         "conductor:1",

@@ -277,7 +277,7 @@ const GLASS_BETA: Columns = Columns {
 pub fn glass_layer(interface: Interface) -> Option<&'static Columns> {
     match interface.ior() {
         ..1.001 | 12.0.. => Some(&GLASS_LAYER),
-        ..1.01 | 4.0.. => Some(&GLASS_WIDE_LAYER),
+        ..1.05 | 4.0.. => Some(&GLASS_WIDE_LAYER),
         _ => None,
     }
 }
