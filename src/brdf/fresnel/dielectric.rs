@@ -75,7 +75,7 @@ impl Basis<1> for Dielectric {
 
     fn has_layer(self) -> bool {
         // F rises within √(n² - 1) of grazing incidence, and falls to 0 and rises within 1/n.
-        self.ior < 1.01 || self.ior > 4.0
+        self.ior < 1.05 || self.ior > 4.0
     }
 
     fn wgsl_arguments(self) -> String {
