@@ -240,15 +240,15 @@ const GLASS: Columns = Columns {
     g112: all(2e-3),
     g560: all(1e-5),
     g904: all(1.5e-6),
-    g2240: all(1e-7),
-    g4536: all(4e-9),
+    g2240: all(1.2e-7),
+    g4536: all(5e-9),
     reference: all(1e-12),
     ..WITHOUT_GLASS
 };
 
 /// Far below the critical angle T spans ten decades.
 const GLASS_INSIDE: Columns =
-    Columns { g904: sharp(1.5e-6, 6e-4, 2e-11), g4536: sharp(4e-9, 1e-4, 1e-12), ..GLASS };
+    Columns { g904: sharp(1.5e-6, 6e-4, 2e-11), g4536: sharp(5e-9, 1e-4, 1e-12), ..GLASS };
 
 /// Gaussian tails end within a piece, which few nodes do not follow.
 const GLASS_BECKMANN: Columns = Columns {
@@ -287,7 +287,7 @@ const GLASS_LAYER: Columns = Columns {
     g560: all(1e-4),
     g904: all(3e-5),
     g2240: all(8e-6),
-    g4536: all(2e-6),
+    g4536: all(3e-6),
     reference: all(1e-12),
     ..WITHOUT_GLASS
 };
