@@ -7,7 +7,7 @@ use self::glass::Glass;
 use super::Progress;
 use crate::brdf::fresnel::{Basis, with_basis};
 use crate::brdf::{Diffuse, Microfacet};
-use crate::integrate::average::average_nodes_at;
+use crate::integrate::average::{add_average, average_nodes_at};
 use crate::integrate::double_exponential::{DoubleExponentialNodes, double_exponential};
 use crate::integrate::half_vectors::{HalfVectorNodes, half_vectors};
 use crate::integrate::interpolant::{Interpolant, InterpolantRule};
@@ -90,10 +90,8 @@ impl Baker {
         let integrals = self.bake_points(&points);
         let mut averages = Field::zeros(self.count, alphas.len());
         let mut integrals = integrals.iter();
-        for (sums, nodes) in averages.values_mut().chunks_exact_mut(self.count).zip(&nodes) {
-            for (&(_, weight), integrals) in nodes.iter().zip(&mut integrals) {
-                sums.iter_mut().zip(integrals).for_each(|(sum, value)| *sum += weight * value);
-            }
+        for (sum, nodes) in averages.values_mut().chunks_exact_mut(self.count).zip(&nodes) {
+            add_average(nodes, integrals.by_ref(), sum);
         }
         averages
     }

@@ -8,7 +8,7 @@ use crate::brdf::fresnel::with_basis;
 use crate::brdf::{Fresnel, Microfacet};
 use crate::certify::deviation::{self, Deviation};
 use crate::error::{Error, Result};
-use crate::integrate::average::{average_error, average_nodes, averages};
+use crate::integrate::average::{average_error, average_nodes, averages, averages_by_row};
 use crate::integrate::errors::f32_arithmetic;
 use crate::integrate::estimator::Estimator;
 use crate::integrate::hammersley::{Point, estimate};
@@ -61,8 +61,7 @@ impl Integration<'_> {
 
     /// The averages of each row of a grid that these integrands have.
     pub fn averages(&mut self, grid: &Grid, averaged: &[Integrand]) -> Result<Vec<Vec<Ball>>> {
-        if let Integrand::Glass(_) | Integrand::Specular(_, Fresnel::Dielectric(_)) = self.integrand
-        {
+        if averages_by_row(self.integrand) {
             return Ok(self.averages_of_interfaces(grid, averaged));
         }
         let nodes = average_nodes();

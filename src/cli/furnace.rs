@@ -110,15 +110,7 @@ pub fn run(arguments: &FurnaceArgs) -> Result<()> {
     }
     // The reciprocal split is a lobe of its own, in the place of Lambert's.
     let splits = if material.base == Diffuse::Lambert { Split::ALL } else { &Split::ALL[..2] };
-    // A texel has its integral, and of each furnace an energy, what is drawn of it and three bytes
-    // of colour; a row those of the directions of its averages.
-    let maps = F0S.len() * splits.len();
-    resources::start(
-        (size * size * (16 + maps * 24) + size * 4096) as u64,
-        None,
-        resources::ALLOW,
-    )?;
-    let grid = grid(size)?;
+    let grid = start(size, F0S.len() * splits.len())?;
     let rule = Rule::for_cpu(material.lobe, TOLERANCE, grid.len()).unwrap_or(REFERENCE);
     let furnaces = furnaces(material, &F0S, splits, &grid, &rule)?;
     if let Some(name) = &arguments.output {
@@ -136,8 +128,12 @@ pub fn run(arguments: &FurnaceArgs) -> Result<()> {
     if arguments.json { super::print_json(&report) } else { super::print(&describe(&report)) }
 }
 
-/// n·v and roughness, each at i/(size - 1).
-fn grid(size: usize) -> Result<Grid> {
+/// n·v and roughness, each at i/(size - 1), once there is memory for so many maps of energy.
+fn start(size: usize, maps: usize) -> Result<Grid> {
+    // A texel has its integral, and of each map an energy, what is drawn of it and three bytes of
+    // colour; a row those of the directions of its averages.
+    let bytes = size * size * (16 + maps * 24) + size * 4096;
+    resources::start(bytes as u64, None, resources::ALLOW)?;
     let edges = |parameter| AxisSpec { nodes: Nodes::Edges, ..AxisSpec::of(parameter) };
     let axis = |parameter| Axis::new(edges(parameter), size);
     Grid::new(&axis(Parameter::Nov)?, &axis(Parameter::Roughness)?)

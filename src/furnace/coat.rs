@@ -159,14 +159,15 @@ impl Interface {
             let light = mean(&|mu, s| self.of_light(coat, at(mu, s)));
             let view = mean(&|mu, s| self.of_view(coat, at(mu, s)));
             coated.averages.push(average + albedo * view * light);
-            let directions: Vec<Direction> =
-                grid.mus.iter().zip(specular).map(|(&mu, &s)| at(mu, s)).collect();
-            for &v in &directions {
-                coated.energy.push(v.specular + albedo * self.of_view(coat, v) * light);
-                for &l in &directions {
-                    let way = |v, l| self.of_view(coat, v) * self.of_light(coat, l);
-                    coated.asymmetry = coated.asymmetry.max((way(v, l) - way(l, v)).abs());
+            let directions = grid.mus.iter().zip(specular).map(|(&mu, &s)| at(mu, s));
+            let mut factors: Vec<(f64, f64)> = Vec::with_capacity(width);
+            for v in directions {
+                let (a, b) = (self.of_view(coat, v), self.of_light(coat, v));
+                coated.energy.push(v.specular + albedo * a * light);
+                for (other_a, other_b) in &factors {
+                    coated.asymmetry = coated.asymmetry.max((a * other_b - other_a * b).abs());
                 }
+                factors.push((a, b));
             }
         }
         coated

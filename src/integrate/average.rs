@@ -33,6 +33,9 @@ pub fn average_nodes() -> Vec<(f64, f64)> {
 /// 1, and from inside within α of the critical angle θ_c, and where θ_v = π/2 - θ_c or π/2 - 2 θ_c,
 /// at which the critical angle of a half vector meets the horizon.
 pub fn average_nodes_at(integrand: Integrand, alpha: f64) -> Vec<(f64, f64)> {
+    if !averages_by_row(integrand) {
+        return average_nodes();
+    }
     let mut breaks = vec![0.0, alpha, WIDE * alpha, 1.0];
     match integrand {
         Integrand::Glass(interface) if interface.side() == Side::Inside => {
@@ -44,7 +47,7 @@ pub fn average_nodes_at(integrand: Integrand, alpha: f64) -> Vec<(f64, f64)> {
         }
         Integrand::Glass(interface) => breaks.push(interface.k().sqrt()),
         Integrand::Specular(_, Fresnel::Dielectric(medium)) => breaks.push(medium.k().sqrt()),
-        Integrand::Specular(..) | Integrand::Diffuse(_) => return average_nodes(),
+        Integrand::Specular(..) | Integrand::Diffuse(_) => (),
     }
     breaks.retain(|at| (0.0..=1.0).contains(at));
     breaks.sort_by(f64::total_cmp);
@@ -58,6 +61,11 @@ pub fn average_nodes_at(integrand: Integrand, alpha: f64) -> Vec<(f64, f64)> {
         })
     });
     nodes.collect()
+}
+
+/// Whether the directions vary with α: those of interfaces of dielectrics do.
+pub fn averages_by_row(integrand: Integrand) -> bool {
+    matches!(integrand, Integrand::Glass(_) | Integrand::Specular(_, Fresnel::Dielectric(_)))
 }
 
 /// Whether it is of GGX with a rational masking term: Gaussian slopes and the beta function take
@@ -95,11 +103,20 @@ pub fn averages(nodes: &[(f64, f64)], rows: &Field) -> Field {
     let mut averages = Field::zeros(count, rows.len() / nodes.len());
     let sums = averages.values_mut().chunks_exact_mut(count);
     for (sum, row) in sums.zip(rows.values().chunks_exact(count * nodes.len())) {
-        for (&(_, weight), integrals) in nodes.iter().zip(row.chunks_exact(count)) {
-            for (sum, integral) in sum.iter_mut().zip(integrals) {
-                *sum += weight * integral;
-            }
-        }
+        add_average(nodes, row.chunks_exact(count), sum);
     }
     averages
+}
+
+/// Adds the average of a row's integrals to `sum`.
+pub fn add_average<'a>(
+    nodes: &[(f64, f64)],
+    integrals: impl Iterator<Item = &'a [f64]>,
+    sum: &mut [f64],
+) {
+    for (&(_, weight), integrals) in nodes.iter().zip(integrals) {
+        for (sum, integral) in sum.iter_mut().zip(integrals) {
+            *sum += weight * integral;
+        }
+    }
 }

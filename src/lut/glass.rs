@@ -27,6 +27,8 @@ use crate::table::Channel;
 pub struct Glass {
     interface: Interface,
     channels: GlassChannels,
+    /// 1 - F_avg
+    passed: Ball,
 }
 
 /// The numbers that a texel holds.
@@ -64,7 +66,8 @@ choice!(GlassChannels, "channels", {
 impl Glass {
     /// The table of an interface.
     pub fn new(interface: Interface, channels: GlassChannels) -> Self {
-        Glass { interface, channels }
+        let passed = Ball::exact(1.0) - interface.average_reflectance();
+        Glass { interface, channels, passed }
     }
 
     /// The interface.
@@ -102,13 +105,13 @@ impl Glass {
             let (expected, got) = ("outside, where indices below 1 are seen from inside", "inside");
             return Err(Error::bad_input("side", expected, got, "leave it out"));
         };
-        Ok(Glass { interface, ..*self })
+        Ok(Glass::new(interface, self.channels))
     }
 
     /// Both sides of an interface in a texel: the channels from outside, then those from inside.
     pub fn both_sides(outside: Interface, channels: GlassChannels) -> Result<Packing> {
-        let [outside, inside] = [Side::Outside, Side::Inside]
-            .map(|side| Glass { interface: outside.from(side), channels });
+        let [outside, inside] =
+            [Side::Outside, Side::Inside].map(|side| Glass::new(outside.from(side), channels));
         let luts = vec![Lut::Glass(outside), Lut::Glass(inside)];
         let count = outside.list().len();
         let place = |i: usize| Content::of(Source::Of { part: i / count, channel: i % count });
@@ -174,8 +177,7 @@ impl Glass {
             GlassChannels::LostShare => {
                 let (own, other) = averages.split_at(2);
                 let (own, other) = (one - kept(own), one - kept(other));
-                let passed = one - self.interface.average_reflectance();
-                first(&[one - other / (own + other) * passed])
+                first(&[one - other / (own + other) * self.passed])
             }
             GlassChannels::Turquin => first(&[(one - kept(integrals)) / kept(integrals)]),
         }

@@ -49,11 +49,8 @@ fn about_view(interface: Interface, rule: DoubleExponentialRule) -> ViewPolarNod
 impl Work for Glass {
     fn integrate(&self, points: Points, integrals: &mut [f64]) {
         let lanes = |mu, alpha| vectorised(Group { work: self, mu, alpha });
-        in_groups(points, integrals, lanes, |(mu, alpha), integrals| {
-            let exact = self.interface.exact(mu, alpha);
-            for (integral, exact) in integrals.iter_mut().zip(exact) {
-                *integral = exact.map_or(*integral, |exact| exact.value);
-            }
+        in_groups(points, integrals, lanes, |point, integrals| {
+            self.interface.put_exact(point, integrals);
         });
     }
 

@@ -83,10 +83,7 @@ pub fn bake_glass(
     };
     let mut baked = run(gpu, &work, grid, progress)?;
     for (i, integrals) in baked.integrals.values_mut().chunks_exact_mut(2).enumerate() {
-        let (mu, alpha) = grid.point(i);
-        for (integral, exact) in integrals.iter_mut().zip(interface.exact(mu, alpha)) {
-            *integral = exact.map_or(*integral, |exact| exact.value);
-        }
+        interface.put_exact(grid.point(i), integrals);
     }
     Ok(baked)
 }

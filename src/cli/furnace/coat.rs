@@ -1,10 +1,9 @@
 //! `splitsum furnace --ior`: the formulas for a base below an interface.
 
-use super::{FurnaceArgs, SCALE, TOLERANCE, grid};
-use crate::brdf::Fresnel;
+use super::{FurnaceArgs, SCALE, TOLERANCE, start};
 use crate::brdf::{Masking, Ndf};
 use crate::choice::Choice;
-use crate::cli::{output, print, print_json, resources};
+use crate::cli::{output, print, print_json};
 use crate::error::{Error, Result};
 use crate::format::metadata::TOOL;
 use crate::furnace::coat::{Coat, Coated, coated};
@@ -12,6 +11,7 @@ use crate::image::{diverging, panels};
 use crate::integrate::Integrand;
 use crate::integrate::rule::Rule;
 use crate::integrate::rules::REFERENCE;
+use crate::lut::Energy;
 use crate::table::grid::Grid;
 use crate::units::roughness_of;
 use serde::Serialize;
@@ -53,30 +53,12 @@ pub(super) fn run(arguments: &FurnaceArgs, ior: f64) -> Result<()> {
         let (got, cure) = (rho.to_string(), "give an albedo in that range");
         return Err(Error::bad_input("albedo", "0 to 1", got, cure));
     }
-    let maps = rhos.len() * Coat::ALL.len();
-    resources::start(
-        (size * size * (16 + maps * 24) + size * 4096) as u64,
-        None,
-        resources::ALLOW,
-    )?;
-    let grid = grid(size)?;
-    // Of an index that is none the interface says so.
-    let fresnel = format!("dielectric:{ior}").parse().unwrap_or(Fresnel::Schlick);
-    let integrand = Integrand::Specular(lobe, fresnel);
+    let integrand = Integrand::Specular(lobe, Energy::of_interface(lobe, ior)?.fresnel());
+    let grid = start(size, rhos.len() * Coat::ALL.len())?;
     let rule = Rule::for_cpu(integrand, TOLERANCE, grid.len()).unwrap_or(REFERENCE);
     let all = coated(lobe, ior, &rhos, &grid, &rule)?;
-    let right = |of: &Coated| {
-        all.iter().find(|other| other.coat == Coat::Interreflecting && other.rho == of.rho)
-    };
-    let deviations: Vec<Vec<f64>> = all
-        .iter()
-        .map(|of| match right(of) {
-            Some(right) => {
-                of.energy.iter().zip(&right.energy).map(|(e, right)| e - right).collect()
-            }
-            None => Vec::new(),
-        })
-        .collect();
+    // They come albedo by albedo, what is right last.
+    let deviations: Vec<Vec<f64>> = all.chunks(Coat::ALL.len()).flat_map(deviations).collect();
     if let Some(name) = &arguments.output {
         let scaled = |deviation: &Vec<f64>| deviation.iter().map(|off| off / SCALE).collect();
         let values: Vec<Vec<f64>> = deviations.iter().map(scaled).collect();
@@ -98,6 +80,15 @@ pub(super) fn run(arguments: &FurnaceArgs, ior: f64) -> Result<()> {
         formulas: all.iter().zip(&deviations).map(line).collect(),
     };
     if arguments.json { print_json(&report) } else { print(&describe(&report)) }
+}
+
+/// The energy of each formula less that of the last.
+fn deviations(formulas: &[Coated]) -> Vec<Vec<f64>> {
+    let less = |of: &Coated, right: &Coated| {
+        of.energy.iter().zip(&right.energy).map(|(energy, right)| energy - right).collect()
+    };
+    let right = formulas.last();
+    right.map_or(Vec::new(), |right| formulas.iter().map(|of| less(of, right)).collect())
 }
 
 /// The averages at the first row, the middle one, and the last.

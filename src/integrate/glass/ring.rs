@@ -74,7 +74,7 @@ pub fn cosine_at<R: Real>(zero: Zero<R>, azimuth: Azimuth<R>, rest: R) -> R {
 /// The integral over the azimuths up to t² = `t2`, of either side of the plane; `part` is given how
 /// far t² is below.
 #[inline(always)]
-pub fn interval<R: Real>(t2: R, nodes: &[Node], part: impl Fn(Azimuth<R>, R) -> R) -> R {
+pub(super) fn interval<R: Real>(t2: R, nodes: &[Node], part: impl Fn(Azimuth<R>, R) -> R) -> R {
     let mut sum = R::from(0.0);
     if !t2.any(|t2| t2 > 0.0) {
         return sum;
@@ -89,7 +89,7 @@ pub fn interval<R: Real>(t2: R, nodes: &[Node], part: impl Fn(Azimuth<R>, R) -> 
 
 /// The same with the nodes for a root at the end where `root` is above 0, else with the others.
 #[inline(always)]
-pub fn either<R: Real>(
+pub(super) fn either<R: Real>(
     root: R,
     t2: R,
     with_root: &[Node],
@@ -109,7 +109,12 @@ pub fn either<R: Real>(
 
 /// The integral over the azimuths from t² = `from` to `to`.
 #[inline(always)]
-pub fn beyond<R: Real>(from: R, to: R, nodes: &ExitNodes, part: impl Fn(Azimuth<R>) -> R) -> R {
+pub(super) fn beyond<R: Real>(
+    from: R,
+    to: R,
+    nodes: &ExitNodes,
+    part: impl Fn(Azimuth<R>) -> R,
+) -> R {
     let zero = R::from(0.0);
     let length2 = to - from;
     if !length2.any(|length| length > 0.0) {
