@@ -25,7 +25,7 @@ pub mod view_polar;
 pub use field::{Field, ScaleBias};
 
 use crate::brdf::fresnel::Basis;
-use crate::brdf::interface::Interface;
+use crate::brdf::interface::{Interface, TransmissionMasking};
 use crate::brdf::{Diffuse, Fresnel, Microfacet};
 use crate::numeric::ball::Ball;
 use crate::numeric::lanes::Real;
@@ -87,6 +87,29 @@ impl Integrand {
             Integrand::Specular(lobe, _) => lobe.may_exceed_one(),
             Integrand::Glass(_) => false,
             Integrand::Diffuse(_) => true,
+        }
+    }
+
+    /// Why no device can bake it: what is wrong, what was expected, what was got.
+    pub fn obstacle_on_device(self) -> Option<(&'static str, &'static str, String)> {
+        match self {
+            Integrand::Specular(_, fresnel) => {
+                fresnel.obstacle_on_device().map(|wanted| ("fresnel", wanted, fresnel.to_string()))
+            }
+            // Its logarithms of gamma functions cancel in f32.
+            Integrand::Glass(interface) => match interface.transmission() {
+                TransmissionMasking::Correlated | TransmissionMasking::Separable => None,
+                TransmissionMasking::Beta => Some((
+                    "transmission-masking",
+                    "correlated or separable, for a device",
+                    "beta".into(),
+                )),
+            },
+            Integrand::Diffuse(_) => Some((
+                "lut",
+                "one that is integrated",
+                "diffuse, whose closed forms the CPU has at once".into(),
+            )),
         }
     }
 }

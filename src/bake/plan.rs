@@ -3,10 +3,8 @@
 
 use super::{BAND, task};
 use crate::backend::{Backend, Chosen, Gpu};
-use crate::brdf::interface::TransmissionMasking;
 use crate::certify::stages;
 use crate::error::{Complaint, Error, Result};
-use crate::integrate::Integrand;
 use crate::integrate::average::average_nodes;
 use crate::integrate::rule::{Method, Rule};
 use crate::lut::Part;
@@ -137,23 +135,8 @@ fn device_rule(request: &Request, part: &Part) -> std::result::Result<Rule, Comp
     let on_cpu = |what: &str, expected: &str, got: &str| {
         Err(Complaint::new(what, expected, got, "use --backend cpu"))
     };
-    if let Integrand::Diffuse(_) = integrand {
-        return on_cpu(
-            "lut",
-            "one that is integrated",
-            "diffuse, whose closed forms the CPU has at once",
-        );
-    }
-    if let Integrand::Glass(interface) = integrand
-        && interface.transmission() == TransmissionMasking::Beta
-    {
-        // Its logarithms of gamma functions cancel in f32.
-        return on_cpu("transmission-masking", "correlated or separable, for a device", "beta");
-    }
-    if let Integrand::Specular(_, fresnel) = integrand
-        && let Some(expected) = fresnel.obstacle_on_device()
-    {
-        return on_cpu("fresnel", expected, &fresnel.to_string());
+    if let Some((what, expected, got)) = integrand.obstacle_on_device() {
+        return on_cpu(what, expected, &got);
     }
     match request.accuracy() {
         Accuracy::Within(_) => on_cpu(

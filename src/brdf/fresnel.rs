@@ -185,6 +185,7 @@ impl Fresnel {
             dielectric(1.000_001),
             dielectric(1.0001),
             dielectric(1.001),
+            dielectric(1.02),
             dielectric(1.05),
             dielectric(1.5),
             dielectric(4.0),

@@ -2,7 +2,7 @@
 
 use super::{Points, Work, in_groups};
 use crate::brdf::Ndf;
-use crate::brdf::interface::Interface;
+use crate::brdf::interface::{Interface, TransmissionMasking};
 use crate::integrate::Integrals;
 use crate::integrate::double_exponential::DoubleExponentialRule;
 use crate::integrate::glass::{GlassNodes, glass};
@@ -37,13 +37,16 @@ impl Glass {
     }
 }
 
-/// The nodes about v; Gaussian tails take more of them in the outer variable.
+/// The nodes about v: Gaussian tails take more of them in the outer variable, and in the inner one
+/// where a beta function falls on their side of the horizon.
 fn about_view(interface: Interface, rule: DoubleExponentialRule) -> ViewPolarNodes {
-    let outer = match interface.lobe().ndf {
-        Ndf::Ggx => rule.outer,
-        _ => rule.outer * 7 / 5,
+    let DoubleExponentialRule { outer, inner } = rule;
+    let (outer, inner) = match (interface.lobe().ndf, interface.transmission()) {
+        (Ndf::Ggx, _) => (outer, inner),
+        (_, TransmissionMasking::Beta) => (outer * 7 / 5, inner * 6 / 5),
+        (_, _) => (outer * 7 / 5, inner),
     };
-    ViewPolarNodes::of(DoubleExponentialRule { outer, ..rule })
+    ViewPolarNodes::of(DoubleExponentialRule { outer, inner })
 }
 
 impl Work for Glass {

@@ -157,8 +157,8 @@ pub fn check(search: &Search) -> Result<()> {
 fn hunts<'a>(seed: u64, rules: &[(Integrand, Rule)], devices: &'a [Gpu]) -> Vec<Hunt<'a>> {
     let mut hunts: Vec<Hunt> = Vec::new();
     for &(of, rule) in rules {
-        let runners =
-            std::iter::once(None).chain(devices.iter().filter(|_| rule.runs_on_device()).map(Some));
+        let on_device = rule.runs_on_device() && of.obstacle_on_device().is_none();
+        let runners = std::iter::once(None).chain(devices.iter().filter(|_| on_device).map(Some));
         for gpu in runners {
             let truth = rule.yardstick();
             let same = |hunt: &&mut Hunt| {
@@ -252,9 +252,9 @@ impl Hunt<'_> {
 
     fn round(&mut self, plan: Plan) -> Result<()> {
         // The reference of glass takes a millisecond for a point.
-        let starts = match self.of {
-            Integrand::Glass(_) => plan.starts.div_ceil(4),
-            Integrand::Specular(..) | Integrand::Diffuse(_) => plan.starts,
+        let (starts, side) = match self.of {
+            Integrand::Glass(_) => (plan.starts.div_ceil(4), SIDE / 2),
+            Integrand::Specular(..) | Integrand::Diffuse(_) => (plan.starts, SIDE),
         };
         let mut points: Vec<Place> = (0..starts).map(|i| self.places.start(i)).collect();
         for track in &self.tracks {
@@ -267,7 +267,7 @@ impl Hunt<'_> {
             }
         }
         // A device is given a grid: every n·v of a few dozen places with every α.
-        let grid = self.on_devices.then(|| grid_of(&points, &mut self.places));
+        let grid = self.on_devices.then(|| grid_of(&points, &mut self.places, side));
         if let Some(grid) = &grid {
             points = (0..grid.len())
                 .map(|i| grid.point(i))
@@ -303,18 +303,18 @@ impl Hunt<'_> {
     }
 }
 
-/// n·v and α of [`SIDE`] of the places each.
-fn grid_of(points: &[Place], places: &mut Places) -> Grid {
+/// n·v and α of so many of the places each.
+fn grid_of(points: &[Place], places: &mut Places, side: usize) -> Grid {
     let mut some = |of: fn(&Place) -> f64| -> Vec<f64> {
         // The last ones are near the worst; half of all are drawn from them.
-        (0..SIDE)
+        (0..side)
             .map(|i| of(&points[places.pick(points.len() / (1 + i % 2), points.len())]))
             .collect()
     };
     Grid::of(some(|place| place.mu), some(|place| place.alpha))
 }
 
-/// The number of n·v and of α of a grid for a device.
+/// The number of n·v and of α of a grid for a device, of cheap integrands.
 const SIDE: usize = 20;
 
 /// Error over bound, 0 of nothing promised; infinite for what is no number.
