@@ -15,6 +15,8 @@
 //! so that both factors of the split sum are exact.
 
 pub mod curve;
+pub mod material;
+pub mod moments;
 #[cfg(feature = "vulkan")]
 mod on_device;
 pub mod planned;
@@ -31,7 +33,7 @@ use crate::table::axis::{Axis, AxisSpec, Parameter};
 use crate::table::grid::Grid;
 use crate::table::precision::Precision;
 use crate::units::{Alpha, PerceptualRoughness};
-use curve::{Curve, Samples};
+use curve::{Curve, Samples, points};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use shade::{Sphere, shade};
@@ -72,7 +74,7 @@ pub struct Row {
     /// Its light.
     pub scene: Scene,
     columns: Vec<Column>,
-    table: Samples,
+    table: Samples<2>,
 }
 
 /// A sphere's roughness, and the prefiltering that follows from it.
@@ -101,7 +103,7 @@ impl Row {
         let grid = Grid::new(&x, &y)?;
         let rule = Rule::for_cpu(lobe, Precision::F16.default_tolerance(), grid.len())
             .unwrap_or(REFERENCE);
-        let table = Samples { x, y, values: cpu::bake(lobe, &grid, &rule, &|_| ()).scale_bias() };
+        let table = Samples { x, y, values: points(&cpu::bake(lobe, &grid, &rule, &|_| ())) };
         let column = |&r: &f64| PerceptualRoughness::new(r).map(|r| Column::new(lobe.ndf, r));
         Ok(Row {
             lobe,
@@ -191,21 +193,25 @@ fn render_row_on_cpu(row: &Row, cell: usize, progress: Progress) -> Result<Vec<[
     let spheres = row.spheres()?;
     let width = cell * spheres.len();
     let line = |j: usize| {
-        let pixels: Vec<_> =
-            (0..width).map(|i| pixel(row.scene, &spheres[i / cell], (i % cell, j), cell)).collect();
+        let pixels: Vec<_> = (0..width)
+            .map(|i| {
+                let sphere = &spheres[i / cell];
+                pixel((i % cell, j), cell, |p| shade(row.scene, sphere, p))
+            })
+            .collect();
         progress(width);
         pixels
     };
     Ok((0..cell).into_par_iter().flat_map_iter(line).collect())
 }
 
-/// A pixel of a sphere's cell: the mean of four samples.
-fn pixel(scene: Scene, sphere: &Sphere, (i, j): (usize, usize), cell: usize) -> [f64; 3] {
+/// A pixel of a sphere's cell: the mean of four samples of a shade.
+fn pixel((i, j): (usize, usize), cell: usize, shade: impl Fn(DVec2) -> DVec3) -> [f64; 3] {
     let place = |at: usize, part: usize| (at as f64 + 0.25 + 0.5 * part as f64) / cell as f64;
     let mut sum = DVec3::ZERO;
     for s in 0..4 {
         let p = DVec2::new(place(i, s % 2), place(j, s / 2));
-        sum += 0.25 * shade(scene, sphere, p).min(DVec3::ONE);
+        sum += 0.25 * shade(p).min(DVec3::ONE);
     }
     sum.to_array()
 }

@@ -386,13 +386,13 @@ fn tables_are_drawn() {
 #[test]
 fn spheres_are_previewed() {
     let folder = tempdir().unwrap();
-    for scene in ["punctual", "furnace", "sky"] {
+    for scene in ["punctual", "furnace", "sky", "glass", "coat", "metal"] {
         ok(&folder, &format!("preview --scene {scene} --size 16 --backend cpu -o {scene}.png"));
         assert!(
             fs::read(folder.path().join(format!("{scene}.png"))).unwrap().starts_with(b"\x89PNG")
         );
     }
-    refused("preview --scene moon", 2, &["punctual, furnace, sky"]);
+    refused("preview --scene moon", 2, &["punctual, furnace, sky, glass, coat, metal"]);
     refused("preview --size 4", 2, &["16..=512"]);
     refused("preview -o preview.exr", 4, &[".png"]);
     refused("preview --backend opencl", 2, &["auto, vulkan, cpu"]);

@@ -17,6 +17,7 @@ pub use conductor::{Conductor, conductor_reflectance};
 pub use dielectric::{
     Dielectric, SMALLEST_ROOT, average_dielectric, dielectric_reflectance, reflectance_from,
 };
+pub use metals::metal;
 pub use schlick::{Schlick, average_schlick, schlick_complement, schlick_weight, schlick_weights};
 pub use schlick_f82::{SchlickF82, schlick_f82_weights};
 pub use schlick_power::{SchlickPower, schlick_power_weights};
@@ -249,7 +250,7 @@ impl Fresnel {
         }
         let mut list = Vec::new();
         for model in &models {
-            match model.strip_prefix("conductor:").and_then(metals::metal) {
+            match model.strip_prefix("conductor:").and_then(metal) {
                 Some(metal) => list.extend(metal.map(Fresnel::Conductor)),
                 None => list.push(model.parse()?),
             }

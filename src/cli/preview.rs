@@ -8,8 +8,9 @@ use super::progress::Progress;
 use super::{output, resources};
 use crate::backend::device::GpuOptions;
 use crate::brdf::{Microfacet, Ndf};
-use crate::choice::choice;
-use crate::error::Result;
+use crate::choice::{Choice, choice};
+use crate::error::{Complaint, Result};
+use crate::preview::material::{self, Material};
 use crate::preview::{ROUGHNESSES, Row, Scene, render};
 use std::io::Write;
 
@@ -47,6 +48,9 @@ pub enum Light {
     Punctual,
     Furnace,
     Sky,
+    Glass,
+    Coat,
+    Metal,
 }
 
 choice!(Light, "scene", {
@@ -54,6 +58,10 @@ choice!(Light, "scene", {
     Furnace = "furnace", "from everywhere; for Beckmann and GGX the split sum with a table, the \
                           integral, their difference times 100";
     Sky = "sky", "a sky; Blinn-Phong, Beckmann and GGX below each other";
+    Glass = "glass", "glass of n = 1.5 in the furnace, then under the sky, on the CPU: with a \
+                      table, by the integral, their difference times 100";
+    Coat = "coat", "the same of a red base below an interface of n = 1.5";
+    Metal = "metal", "the same of gold by its measured index";
 });
 
 pub fn run(arguments: &PreviewArgs) -> Result<()> {
@@ -66,37 +74,76 @@ pub fn run(arguments: &PreviewArgs) -> Result<()> {
     // most scenes have six rows.
     let bytes = (ROUGHNESSES.len() * size * size * (24 + 6 * 6) + (16 << 20)) as u64;
     resources::start(bytes, None, resources::ALLOW)?;
-    let rows = rows(arguments.scene)?;
     let backend = arguments.device.open(GpuOptions::default(), bytes)?;
-    let progress = Progress::of_pixels(name, rows.len() * ROUGHNESSES.len() * size * size);
-    let picture = render(&rows, size, &backend, &|pixels| progress.advance(pixels))?;
+    let rows = match arguments.scene {
+        Light::Punctual => Rows::Lobes(rows(&ALL, &[Scene::Punctual])?),
+        Light::Furnace => Rows::Lobes(rows(&ALL[1..], &FURNACE)?),
+        Light::Sky => Rows::Lobes(rows(&ALL, &[Scene::Sky])?),
+        Light::Glass => Rows::Of(Material::Glass),
+        Light::Coat => Rows::Of(Material::Coat),
+        Light::Metal => Rows::Of(Material::Metal),
+    };
+    let progress = Progress::of_pixels(name, rows.count() * ROUGHNESSES.len() * size * size);
+    let told = |pixels| progress.advance(pixels);
+    let (picture, device) = match &rows {
+        Rows::Lobes(rows) => {
+            let device = backend.device().map_or("the CPU", |gpu| &gpu.info().name);
+            (render(rows, size, &backend, &told)?, device)
+        }
+        Rows::Of(material) => {
+            let expected = "punctual, furnace or sky, for a device";
+            let got = arguments.scene.word();
+            backend
+                .choose(Some(Complaint::new("scene", expected, got, "use --backend cpu")), 0.0)?;
+            (material::render(*material, size, &told)?, "the CPU")
+        }
+    };
     drop(progress);
     output::write_picture(name, &picture)?;
-    let device = backend.device().map_or("the CPU", |gpu| &gpu.info().name);
-    let lobes: Vec<String> =
-        rows.iter().map(|row| format!("{} {}", row.lobe.ndf, row.scene.about())).collect();
     let roughnesses = ROUGHNESSES.map(|r| r.to_string()).join(", ");
     let lines = format!(
         "wrote     {name}, rendered by {device}\nrows      {}\nroughness {roughnesses}",
-        lobes.join(", ")
+        rows.about()
     );
     let _ = writeln!(std::io::stderr(), "{lines}");
     Ok(())
 }
 
-fn rows(light: Light) -> Result<Vec<Row>> {
-    let lobe = |ndf: Ndf| Microfacet { ndf, masking: ndf.default_masking() };
-    let each = |ndfs: &[Ndf], scenes: &[Scene]| {
-        let pairs = ndfs.iter().flat_map(|&ndf| scenes.iter().map(move |&scene| (ndf, scene)));
-        pairs.map(|(ndf, scene)| Row::new(lobe(ndf), scene)).collect()
-    };
-    let all = [Ndf::BlinnPhong, Ndf::Beckmann, Ndf::Ggx];
-    match light {
-        Light::Punctual => each(&all, &[Scene::Punctual]),
-        Light::Furnace => each(
-            &all[1..],
-            &[Scene::FurnaceTable, Scene::FurnaceIntegral, Scene::FurnaceDifference],
-        ),
-        Light::Sky => each(&all, &[Scene::Sky]),
+/// What a picture shows.
+enum Rows {
+    /// A row for each lobe and light.
+    Lobes(Vec<Row>),
+    /// The rows of a material.
+    Of(Material),
+}
+
+impl Rows {
+    fn count(&self) -> usize {
+        match self {
+            Rows::Lobes(rows) => rows.len(),
+            Rows::Of(_) => material::ROWS.len(),
+        }
     }
+
+    fn about(&self) -> String {
+        match self {
+            Rows::Lobes(rows) => {
+                let about = |row: &Row| format!("{} {}", row.lobe.ndf, row.scene.about());
+                rows.iter().map(about).collect::<Vec<_>>().join(", ")
+            }
+            Rows::Of(_) => "in a furnace with a table, by the integral, their difference times \
+                            100; the same under a sky"
+                .into(),
+        }
+    }
+}
+
+const ALL: [Ndf; 3] = [Ndf::BlinnPhong, Ndf::Beckmann, Ndf::Ggx];
+
+const FURNACE: [Scene; 3] = [Scene::FurnaceTable, Scene::FurnaceIntegral, Scene::FurnaceDifference];
+
+fn rows(ndfs: &[Ndf], scenes: &[Scene]) -> Result<Vec<Row>> {
+    let lobe = |ndf: Ndf| Microfacet { ndf, masking: ndf.default_masking() };
+    let pairs = ndfs.iter().flat_map(|&ndf| scenes.iter().map(move |&scene| (ndf, scene)));
+    pairs.map(|(ndf, scene)| Row::new(lobe(ndf), scene)).collect()
 }

@@ -21,12 +21,7 @@ pub fn render_row_on_device(gpu: &Gpu, row: &Row, cell: usize) -> Result<Vec<[f6
         |c: &super::Column| [c.alpha, c.roughness, c.means.0, c.means.1].map(|value| value as f32);
     let data = RowData {
         columns: row.columns.iter().map(column).collect(),
-        table: row
-            .table
-            .values
-            .iter()
-            .map(|value| value.array().map(|value| value as f32))
-            .collect(),
+        table: row.table.values.iter().map(|value| value.map(|value| value as f32)).collect(),
         cell,
         scene: row.scene as u32,
     };

@@ -9,14 +9,18 @@ use crate::integrate::ScaleBias;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-const BASE: DVec3 = DVec3::new(0.5, 0.08, 0.06);
+/// The albedo of a red base.
+pub const BASE: DVec3 = DVec3::new(0.5, 0.08, 0.06);
 const GOLD: DVec3 = DVec3::new(1.0, 0.78, 0.34);
 const DIELECTRIC: f64 = 0.04;
 const LIGHT: DVec3 = DVec3::new(0.48, 0.6, 0.64);
 const LIGHT_COLOUR: f64 = 1.6;
-const SKY0: DVec3 = DVec3::new(0.55, 0.6, 0.7);
-const SKY1: DVec3 = DVec3::new(0.3, 0.42, 0.6);
-const SKY2: DVec3 = DVec3::new(-0.22, -0.12, 0.0);
+/// The sky's coefficients.
+pub const SKY0: DVec3 = DVec3::new(0.55, 0.6, 0.7);
+/// Of P1.
+pub const SKY1: DVec3 = DVec3::new(0.3, 0.42, 0.6);
+/// Of P2.
+pub const SKY2: DVec3 = DVec3::new(-0.22, -0.12, 0.0);
 
 /// A sphere, ready for the CPU.
 pub struct Sphere {
@@ -25,9 +29,9 @@ pub struct Sphere {
     /// Its roughness.
     pub column: Column,
     /// The split sum by the table.
-    pub table: Curve,
+    pub table: Curve<2>,
     /// The same by the integral; the table once more where the scene does not show the integral.
-    pub integral: Curve,
+    pub integral: Curve<2>,
 }
 
 /// π D V: what a lobe contributes to L = (c_diff + π D V F) c_light n·l.
@@ -41,12 +45,12 @@ fn pi_d_v(lobe: Microfacet, x: f64, mu: f64, nh: f64, alpha: f64) -> f64 {
 
 /// The table as a renderer reads it.
 fn lookup(sphere: &Sphere, mu: f64) -> ScaleBias {
-    sphere.table.at(mu)
+    sphere.table.at(mu).into()
 }
 
 /// The sky in the direction of height y, its first and second coefficients scaled by a kernel's
 /// means.
-fn sky(y: f64, p1: f64, p2: f64) -> DVec3 {
+pub fn sky(y: f64, p1: f64, p2: f64) -> DVec3 {
     SKY0 + SKY1 * (p1 * y) + SKY2 * (p2 * (1.5 * y * y - 0.5))
 }
 
@@ -71,8 +75,8 @@ fn furnace(scene: Scene, sphere: &Sphere, n: DVec3) -> DVec3 {
     let mu = n.z.max(0.0);
     match scene {
         Scene::FurnaceTable => gold(lookup(sphere, mu)),
-        Scene::FurnaceIntegral => gold(sphere.integral.at(mu)),
-        _ => 100.0 * (gold(lookup(sphere, mu)) - gold(sphere.integral.at(mu))).abs(),
+        Scene::FurnaceIntegral => gold(sphere.integral.at(mu).into()),
+        _ => 100.0 * (gold(lookup(sphere, mu)) - gold(sphere.integral.at(mu).into())).abs(),
     }
 }
 
@@ -84,15 +88,24 @@ fn daylight(sphere: &Sphere, n: DVec3) -> DVec3 {
     specular + (1.0 - e) * BASE * sky(n.y, 2.0 / 3.0, 0.25)
 }
 
-/// The colour at a place of the unit square around a sphere; y runs down.
-pub fn shade(scene: Scene, sphere: &Sphere, p: DVec2) -> DVec3 {
+/// The colour around a sphere of differences.
+pub const AROUND_DIFFERENCE: DVec3 = DVec3::splat(0.02);
+
+/// The normal at a place of the unit square around a sphere; y runs down. Beyond its edge, where
+/// x² + y² >= 1, its z is 0.
+pub fn normal(p: DVec2) -> DVec3 {
     let (x, y) = ((2.0 * p.x - 1.0) * 1.06, (1.0 - 2.0 * p.y) * 1.06);
-    let r2 = x * x + y * y;
-    let n = DVec3::new(x, y, (1.0 - r2).max(0.0).sqrt());
+    DVec3::new(x, y, (1.0 - (x * x + y * y)).max(0.0).sqrt())
+}
+
+/// The colour at a place of the unit square around a sphere.
+pub fn shade(scene: Scene, sphere: &Sphere, p: DVec2) -> DVec3 {
+    let n = normal(p);
+    let beyond = n.x * n.x + n.y * n.y >= 1.0;
     match scene {
-        Scene::Punctual | Scene::FurnaceDifference if r2 >= 1.0 => DVec3::splat(0.02),
-        Scene::Sky if r2 >= 1.0 => sky(y.clamp(-1.0, 1.0), 1.0, 1.0),
-        _ if r2 >= 1.0 => DVec3::ONE,
+        Scene::Punctual | Scene::FurnaceDifference if beyond => AROUND_DIFFERENCE,
+        Scene::Sky if beyond => sky(n.y.clamp(-1.0, 1.0), 1.0, 1.0),
+        _ if beyond => DVec3::ONE,
         Scene::Punctual => punctual(sphere, n),
         Scene::Sky => daylight(sphere, n),
         _ => furnace(scene, sphere, n),

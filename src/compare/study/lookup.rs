@@ -96,8 +96,8 @@ impl Lookups {
         let grid = Grid::new(&x, &y)?;
         let exact = cpu::bake(self.lobe, &grid, &rule(self.lobe, grid.len()), &|_| ()).scale_bias();
         let reading = |&precision: &Precision| {
-            let table = Samples { x, y, values: stored(&exact, precision) };
-            let read = |mu: f64, row: f64| table.bilinear(mu, row);
+            let table = samples((x, y), &stored(&exact, precision));
+            let read = |mu: f64, row: f64| table.bilinear(mu, row).into();
             Ok(Reading {
                 x: axes.0.into(),
                 y: axes.1.into(),
@@ -133,8 +133,12 @@ pub fn practical(
 ) -> Result<Option<f64>> {
     let (x, y) = axes_of(axes, size)?;
     let Some(search) = Search::new(lobe, &x, &y, PATIENCE)? else { return Ok(None) };
-    let table = Samples { x, y, values: values.to_vec() };
-    search.largest(PRACTICAL, &|mu, row| table.bilinear(mu, row)).map(Some)
+    let table = samples((x, y), values);
+    search.largest(PRACTICAL, &|mu, row| table.bilinear(mu, row).into()).map(Some)
+}
+
+fn samples((x, y): (Axis, Axis), values: &[ScaleBias]) -> Samples<2> {
+    Samples { x, y, values: values.iter().map(|value| value.array()).collect() }
 }
 
 /// Storages that are compared.
