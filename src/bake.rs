@@ -4,6 +4,7 @@
 
 mod integration;
 pub mod plan;
+mod sample;
 
 pub use integration::on_device;
 pub use plan::Plan;
@@ -69,7 +70,8 @@ impl Plan<'_> {
         let slices = packings.iter().zip(values.bytes_mut().chunks_exact_mut(size));
         for (index, (packing, bytes)) in slices.enumerate() {
             let grid = &request.grids()[index];
-            let slice = Slice { plan: self, packing, grid, parts: &self.slices[index], progress };
+            let parts_of_slice = &self.slices[index];
+            let slice = Slice { plan: self, index, packing, grid, parts: parts_of_slice, progress };
             let (outcomes, coarser) = slice.bake(bytes)?;
             rounding = rounding.max(request.precision().half_step() + coarser);
             let several = outcomes.len() > 1;
@@ -92,6 +94,9 @@ impl Plan<'_> {
             }
             parts.push(of_slice);
         }
+        if let Accuracy::Tolerance(_) | Accuracy::Rule(_) = request.accuracy() {
+            sample::share(&mut reports, &mut parts);
+        }
         let table = Table::new(layout.clone(), values, parts, rounding, request.to_string())?;
         Ok(Baked { table, reports })
     }
@@ -100,6 +105,7 @@ impl Plan<'_> {
 /// A slice of a table.
 struct Slice<'a> {
     plan: &'a Plan<'a>,
+    index: usize,
     packing: &'a Packing,
     grid: &'a Grid,
     /// The plans of its parts.
@@ -247,7 +253,11 @@ impl PartOfSlice<'_> {
             integrand,
             baker: Baker::new(integrand, &rule),
             gpu: self.device().map(|(gpu, _)| gpu),
-            measured_points: self.slice.measured_points(),
+            measured_points: sample::points(
+                self.slice.index,
+                self.slice.plan.slices.len(),
+                self.slice.bands().count() * self.slice.parts.len(),
+            ),
             checked: Checked::default(),
         };
         integration.checked.seconds.integrate += start.elapsed().as_secs_f64();
@@ -365,5 +375,6 @@ fn task<'a>(request: &Request, lut: &'a Part, grid: &'a Grid) -> Task<'a> {
             request.precision().default_tolerance()
         }
     };
-    Task { lut, grid, precision: request.precision(), tolerance }
+    let slices = request.packings().len();
+    Task { lut, grid, slices, precision: request.precision(), tolerance }
 }

@@ -28,7 +28,7 @@ fn grid(x: &str, y: &str, size: usize) -> Grid {
 }
 
 fn task<'a>(lut: &'a Part, grid: &'a Grid, precision: Precision) -> Task<'a> {
-    Task { lut, grid, precision, tolerance: precision.default_tolerance() }
+    Task { lut, grid, slices: 1, precision, tolerance: precision.default_tolerance() }
 }
 
 #[test]

@@ -6,15 +6,16 @@ mod common;
 
 use common::{Integrator, ab, certify, certify_by, errors_at, field, ggx, part};
 use splitsum::backend::cpu::{self, Baker};
+use splitsum::brdf::interface::Interface;
 use splitsum::brdf::{Masking, Microfacet, Ndf};
 use splitsum::certify::decision::Task;
-use splitsum::certify::stages::{LARGEST_F32, Stages, rules};
+use splitsum::certify::stages::{LARGEST_F32, LARGEST_F32_OF_GLASS, Stages, rules};
 use splitsum::certify::ziv::DeviceTable;
 use splitsum::error::ExitCode;
 use splitsum::integrate::ScaleBias;
 use splitsum::integrate::rule::{CHARLIE_LIMIT, Rule};
 use splitsum::integrate::rules::{D10240, REFERENCE};
-use splitsum::lut::{Energy, EnergyChannels, Lut, Part};
+use splitsum::lut::{Energy, EnergyChannels, Glass, GlassChannels, Lut, Part};
 use splitsum::table::axis::Axis;
 use splitsum::table::grid::Grid;
 use splitsum::table::precision::Precision;
@@ -27,7 +28,7 @@ fn grid(columns: usize, rows: usize) -> Grid {
 }
 
 fn task<'a>(lut: &'a Part, grid: &'a Grid, precision: Precision) -> Task<'a> {
-    Task { lut, grid, precision, tolerance: precision.default_tolerance() }
+    Task { lut, grid, slices: 1, precision, tolerance: precision.default_tolerance() }
 }
 
 /// A lobe with three stages on the CPU.
@@ -131,6 +132,21 @@ fn as_many_f32_values_as_the_limit_says_are_rounded_correctly() {
     let rounded =
         truth.iter().flat_map(|value| [value.a, value.b]).map(|value| f64::from(value as f32));
     assert!(certified.values.iter().copied().eq(rounded));
+}
+
+#[test]
+fn more_f32_values_are_kept_within_the_tolerance_whatever_their_slices() {
+    let interface = Interface::samples().into_iter().find(|interface| interface.ior() == 1.5);
+    let glass = Part::from(Lut::Glass(Glass::new(interface.unwrap(), GlassChannels::Rt)));
+    for (lut, most) in
+        [(part(ggx(Masking::HeightCorrelated)), LARGEST_F32), (glass, LARGEST_F32_OF_GLASS)]
+    {
+        let grid = grid(16, most / 32);
+        let one = task(&lut, &grid, Precision::F32);
+        let promise = |task: &Task| certify(task, None).unwrap().certificate.promise;
+        assert!(promise(&one).contains("rounded once"), "{most}");
+        assert!(promise(&Task { slices: 2, ..one }).contains("before it was rounded"), "{most}");
+    }
 }
 
 #[test]

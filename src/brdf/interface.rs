@@ -101,8 +101,9 @@ impl Interface {
     /// for.
     pub fn samples() -> Vec<Self> {
         let mut samples = Vec::new();
-        for (i, ior) in
-            [1.000_001, 1.005, 1.02, 1.05, 1.33, 1.5, 4.0, 12.0, 100.0].into_iter().enumerate()
+        for (i, ior) in [1.000_001, 1.0013, 1.002, 1.05, 1.33, 1.5, 2.999, 11.999, 30.0, 100.0]
+            .into_iter()
+            .enumerate()
         {
             for (j, side) in Side::ALL.iter().enumerate() {
                 // Every kind with two of the indices.

@@ -12,8 +12,10 @@ use crate::table::precision::Precision;
 pub struct Task<'a> {
     /// The table, or the part of one.
     pub lut: &'a Part,
-    /// Its points.
+    /// Its points, of one slice.
     pub grid: &'a Grid,
+    /// The number of slices of the whole table.
+    pub slices: usize,
     /// Its storage.
     pub precision: Precision,
     /// The largest error of an integral stored within a tolerance; of no account for storages that

@@ -145,7 +145,7 @@ pub fn measure(
         let scattered = |i| stratum(i) + scatter(i) % (stratum(i + 1) - stratum(i));
         corners(grid).into_iter().chain((0..strata).map(scattered)).collect()
     };
-    let truth = cpu::bake_at(integrand, grid, &rule.yardstick(), &sample);
+    let truth = cpu::bake_at(integrand, grid, &rule.gauge(integrand), &sample);
     let (worst, (mu, alpha)) = Deviation::between(grid, &sample, table, &truth);
     if worst.max() <= bound {
         return Ok(worst);

@@ -15,6 +15,9 @@ use crate::table::precision::Precision;
 /// GGX and 2 s for Charlie on one thread.
 pub const LARGEST_F32: usize = 4096;
 
+/// The same of glass, whose reference takes ten times as long.
+pub const LARGEST_F32_OF_GLASS: usize = 512;
+
 /// The stages of the CPU, ready for any part of a table.
 #[derive(Clone, Debug)]
 pub struct Stages {
@@ -52,12 +55,16 @@ impl Stages {
     /// The stages of these rules, each finer than the one before.
     pub fn by(task: &Task, rules: &[Rule]) -> Self {
         let integrand = task.lut.integrand();
-        let closed = matches!(integrand, Integrand::Diffuse(_));
-        let values = task.grid.len() * task.lut.count();
+        let values = task.grid.len() * task.lut.count() * task.slices;
+        let few = match integrand {
+            Integrand::Diffuse(_) => true,
+            Integrand::Specular(..) => values <= LARGEST_F32,
+            Integrand::Glass(_) => values <= LARGEST_F32_OF_GLASS,
+        };
         Stages {
             bakers: rules.iter().map(|rule| Baker::new(integrand, rule)).collect(),
             rounds_correctly: task.precision.is_rounded_once()
-                || task.precision == Precision::F32 && (closed || values <= LARGEST_F32),
+                || task.precision == Precision::F32 && few,
         }
     }
 

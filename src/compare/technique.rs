@@ -230,7 +230,8 @@ impl Setting {
             },
             Setting::Certified(precision) => {
                 let lut = Lut::Dfg(Dfg::new(lobe, Fresnel::Schlick, DfgChannels::All)?).into();
-                let task = Task { lut: &lut, grid, precision: *precision, tolerance: 1e-6 };
+                let (slices, precision) = (1, *precision);
+                let task = Task { lut: &lut, grid, slices, precision, tolerance: 1e-6 };
                 let (values, _) = certify(&task, None, &|_| ())?;
                 Ok(values.chunks_exact(2).map(|ab| ScaleBias { a: ab[0], b: ab[1] }).collect())
             }

@@ -272,21 +272,22 @@ const GLASS_BETA: Columns = Columns {
     ..WITHOUT_GLASS
 };
 
-/// What a layer adds for a rough interface: where the index is near 1, F falls from 1 within √(n² -
-/// 1) of grazing incidence; where it is large, within 1/n.
+/// What a layer adds for a rough interface. Where the index is near 1, F falls from 1 within the
+/// root of n² - 1 of grazing incidence; where it is large, within 1/n. Rules err most where that is
+/// as wide as the spacing of their nodes: g560 at n = 1.002, g904 at 1.0013 and 30, g2240 at 1.0002.
 pub fn glass_layer(interface: Interface) -> Option<&'static Columns> {
     match interface.ior() {
-        ..1.001 | 12.0.. => Some(&GLASS_LAYER),
-        ..1.05 | 4.0.. => Some(&GLASS_WIDE_LAYER),
+        ..1.002 | 12.0.. => Some(&GLASS_LAYER),
+        ..1.05 | 3.0.. => Some(&GLASS_WIDE_LAYER),
         _ => None,
     }
 }
 
 const GLASS_LAYER: Columns = Columns {
     g112: all(1e-3),
-    g560: all(1e-4),
-    g904: all(3e-5),
-    g2240: all(8e-6),
+    g560: all(1.5e-4),
+    g904: all(8e-5),
+    g2240: all(1e-5),
     g4536: all(3e-6),
     reference: all(1e-12),
     ..WITHOUT_GLASS
@@ -294,8 +295,8 @@ const GLASS_LAYER: Columns = Columns {
 
 const GLASS_WIDE_LAYER: Columns = Columns {
     g112: all(1e-3),
-    g560: all(1e-4),
-    g904: all(3e-5),
+    g560: all(1.5e-4),
+    g904: all(8e-5),
     g2240: all(5e-7),
     g4536: all(2e-8),
     reference: all(1e-12),

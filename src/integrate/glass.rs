@@ -13,6 +13,9 @@
 //! does not cancel where t_j is an end of the interval. 1 - F falls like the root of that distance
 //! from the critical angle: t = t_j (1 - (1-v)²) makes it smooth.
 //!
+//! Closures that take lanes are `inline(always)`: whatever the compiler leaves as a function of its
+//! own has none of the instructions that [`crate::numeric::lanes::vectorised`] chose.
+//!
 //! *Pieces* meet at the slopes tan θ_h where
 //!
 //! - θ_h = (π/2 - θ_v)/2: reflected light touches the horizon; it ends at (π/2 + θ_v)/2;
@@ -46,9 +49,18 @@ pub fn glass<R: Real>(
     nodes: &GlassNodes,
 ) -> Integrals<2, R> {
     let view = view_of(interface, mu, from_critical, alpha);
-    let reflected = view.pieces(view.reflected_breaks(), &nodes.reflected, View::reflected_ring);
-    let transmitted =
-        view.pieces(view.transmitted_breaks(), &nodes.transmitted, View::transmitted_ring);
+    let reflected = view.pieces(
+        view.reflected_breaks(),
+        &nodes.reflected,
+        #[inline(always)]
+        |view, ring, nodes| view.reflected_ring(ring, nodes),
+    );
+    let transmitted = view.pieces(
+        view.transmitted_breaks(),
+        &nodes.transmitted,
+        #[inline(always)]
+        |view, ring, nodes| view.transmitted_ring(ring, nodes),
+    );
     Integrals([reflected, transmitted])
 }
 
@@ -233,27 +245,35 @@ impl<R: Real> View<R> {
         let below = (mu - ring.middle * 2.0 / ring.secant) / light;
         let horizon = zero_at(light * 2.0, (below + 1.0) * 0.5);
         match self.interface.side() {
-            Side::Outside => {
-                let part = |azimuth, rest| {
+            Side::Outside => interval(
+                horizon.t2,
+                &nodes.even,
+                #[inline(always)]
+                |azimuth, rest| {
                     let x = cosine_at(horizon, azimuth, rest);
                     let c = (x.max(zero) + mu) * ring.secant * 0.5;
                     self.seen(ring, x) * self.reflectance(c, k + c * c)
-                };
-                interval(horizon.t2, &nodes.even, part)
-            }
+                },
+            ),
             Side::Inside => {
                 let cone = self.critical_zero(ring);
                 let t2 = cone.t2.min(horizon.t2);
-                let partly = |azimuth, rest| {
-                    let above = cosine_at(cone, azimuth, (cone.t2 - t2) + rest);
-                    let c = above + critical;
-                    let f = self.reflectance(c, above * (c + critical));
-                    self.seen(ring, cosine_at(horizon, azimuth, (horizon.t2 - t2) + rest)) * f
-                };
                 // The cone cuts the ring inside of the horizon.
                 let root = zero.select_below(cone.square, one, zero)
                     * horizon.square.select_below(cone.square, one, zero);
-                let part = either(root, t2, &nodes.root, &nodes.even, partly);
+                let part = either(
+                    root,
+                    t2,
+                    &nodes.root,
+                    &nodes.even,
+                    #[inline(always)]
+                    |azimuth, rest| {
+                        let above = cosine_at(cone, azimuth, (cone.t2 - t2) + rest);
+                        let c = above + critical;
+                        let f = self.reflectance(c, above * (c + critical));
+                        self.seen(ring, cosine_at(horizon, azimuth, (horizon.t2 - t2) + rest)) * f
+                    },
+                );
                 part + self.reflected_whole(ring, t2, horizon, nodes)
             }
         }
@@ -262,9 +282,13 @@ impl<R: Real> View<R> {
     /// The same from t² = `t2` to the horizon, where light is reflected whole.
     #[inline(always)]
     pub fn reflected_whole(&self, ring: Ring<R>, t2: R, horizon: Zero<R>, nodes: &ExitNodes) -> R {
-        beyond(t2, horizon.t2, nodes, |azimuth| {
-            self.seen(ring, cosine_at(horizon, azimuth, horizon.t2 - azimuth.t2))
-        })
+        beyond(
+            t2,
+            horizon.t2,
+            nodes,
+            #[inline(always)]
+            |azimuth| self.seen(ring, cosine_at(horizon, azimuth, horizon.t2 - azimuth.t2)),
+        )
     }
 
     /// ∫ c (1 - F) (G₂/(4μ)) dφ
@@ -275,11 +299,15 @@ impl<R: Real> View<R> {
         match self.interface.side() {
             Side::Outside => {
                 let grazing = zero_at(ring.swing * 2.0, (one - ring.middle / ring.swing) * 0.5);
-                let part = |azimuth, rest| {
-                    let c = cosine_at(grazing, azimuth, rest).max(zero);
-                    self.passed(ring, c, k + c * c)
-                };
-                interval(grazing.t2, &nodes.even, part)
+                interval(
+                    grazing.t2,
+                    &nodes.even,
+                    #[inline(always)]
+                    |azimuth, rest| {
+                        let c = cosine_at(grazing, azimuth, rest).max(zero);
+                        self.passed(ring, c, k + c * c)
+                    },
+                )
             }
             Side::Inside => {
                 let cone = self.critical_zero(ring);
@@ -291,15 +319,21 @@ impl<R: Real> View<R> {
                 let lack = if limited { (critical - kappa).max(zero) } else { zero };
                 let lift = lack * lack / (kappa.max(R::from(SMALLEST_SWING)) * 2.0);
                 let limit = zero_at(cone.scale, cone.square + lift / cone.scale);
-                let part = |azimuth, rest| {
-                    let above = cosine_at(limit, azimuth, rest) + lift;
-                    let c = above + critical;
-                    self.passed(ring, c, above * (c + critical))
-                };
                 let near = cone.scale * limit.square.complement() * NEAR;
                 let root =
                     zero.select_below(limit.square, one, zero) * near.select_below(lift, zero, one);
-                either(root, limit.t2, &nodes.root, &nodes.even, part)
+                either(
+                    root,
+                    limit.t2,
+                    &nodes.root,
+                    &nodes.even,
+                    #[inline(always)]
+                    |azimuth, rest| {
+                        let above = cosine_at(limit, azimuth, rest) + lift;
+                        let c = above + critical;
+                        self.passed(ring, c, above * (c + critical))
+                    },
+                )
             }
         }
     }

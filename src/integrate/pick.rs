@@ -3,7 +3,7 @@
 use super::Integrand;
 use super::errors::f32_arithmetic;
 use super::rule::{Method, Rule};
-use super::rules::{FINER_REFERENCE, G560, REFERENCE, RULES};
+use super::rules::{COARSE_ERROR, COARSE_REFERENCE, FINER_REFERENCE, G560, REFERENCE, RULES};
 use crate::error::{Error, Result};
 
 impl Rule {
@@ -100,6 +100,16 @@ impl Rule {
             Method::ClosedForm => *self,
             Method::DoubleExponential(_) if self.is_reference() => FINER_REFERENCE,
             _ => REFERENCE,
+        }
+    }
+
+    /// The rule that a sample of a table by this one is measured against: the yardstick, or of
+    /// glass, where that takes a millisecond for a point, one with fewer nodes that errs by no
+    /// more than a hundredth of what is promised.
+    pub fn gauge(&self, integrand: Integrand) -> Rule {
+        match self.method {
+            Method::Glass(_) if self.bound(integrand) >= 100.0 * COARSE_ERROR => COARSE_REFERENCE,
+            _ => self.yardstick(),
         }
     }
 }

@@ -195,15 +195,19 @@ impl<R: Real> View<R> {
         let f = reflectance_from(c, g2, s * s, R::from(self.interface.k()));
         let swing = self.sv * s * c * 4.0;
         let (low, high) = place.to_horizon(self.at, swing);
-        let visible = |x: R| {
-            let x = x.max(R::from(0.0)).min(R::from(1.0));
-            self.lobe.cosine_visibility_at(x, self.mu, self.area_v, self.alpha)
-        };
-        let light = |across: R, to_end: R| {
-            let partly = low.select_below(R::from(0.0), swing * to_end, low + swing * across);
-            visible(partly)
-        };
-        let inner = self.azimuth(place.p, s, nodes, R::from(0.0), (low, high), light);
+        let inner = self.azimuth(
+            place.p,
+            s,
+            nodes,
+            R::from(0.0),
+            (low, high),
+            #[inline(always)]
+            |across, to_end| {
+                let x = low.select_below(R::from(0.0), swing * to_end, low + swing * across);
+                let x = x.max(R::from(0.0)).min(R::from(1.0));
+                self.lobe.cosine_visibility_at(x, self.mu, self.area_v, self.alpha)
+            },
+        );
         c * s * f * 4.0 * inner
     }
 
@@ -228,16 +232,31 @@ impl<R: Real> View<R> {
                 ((top - least) / (least - upright).max(tiny)).max(zero)
             }
         };
-        let visible = |nh: R| {
-            let x = ((mu + turn * nh) / eta).max(zero).min(R::from(1.0));
-            interface.transmitted_visibility(x, mu, self.area_v, self.alpha)
-        };
         let swing = sv * s * 2.0;
-        let light = |across: R, to_end: R| {
-            visible(upright.select_below(zero, swing * to_end, upright + swing * across))
-        };
-        let inner = self.azimuth(place.p, s, nodes, first, (upright, top), light);
+        let inner = self.azimuth(
+            place.p,
+            s,
+            nodes,
+            first,
+            (upright, top),
+            #[inline(always)]
+            |across, to_end| {
+                let nh = upright.select_below(zero, swing * to_end, upright + swing * across);
+                let x = ((mu + turn * nh) / eta).max(zero).min(R::from(1.0));
+                interface.transmitted_visibility(x, mu, self.area_v, self.alpha)
+            },
+        );
         c * s * passed * 4.0 * inner
+    }
+
+    /// D of a half vector with this sin²(θ_h/2).
+    #[inline(always)]
+    fn density(&self, half: R) -> R {
+        let w2 = self.width * self.width;
+        let ch = (half * 2.0).complement().max(R::from(1e-35));
+        let ch2 = ch * ch;
+        let t = half * half.complement() * 4.0 / (ch2 * w2);
+        self.lobe.ndf.slope_density(t, self.alpha) / (w2 * (ch2 * ch2))
     }
 
     /// ∫ D (G₂/(4μ)) dψ over the circle where tan²(ψ/2) is beyond `first`, and where low is
@@ -265,14 +284,6 @@ impl<R: Real> View<R> {
         };
         let k2 = peak / (peak + across);
         let k = k2.sqrt();
-        let density = |sine2: R| {
-            // sin²(θ_h/2)
-            let half = plane + across * sine2;
-            let ch = (half * 2.0).complement().max(R::from(1e-35));
-            let ch2 = ch * ch;
-            let t = half * half.complement() * 4.0 / (ch2 * w2);
-            self.lobe.ndf.slope_density(t, self.alpha) / (w2 * (ch2 * ch2))
-        };
         let cut = (-low).max(first).max(tail.complement());
         let whole = cut.select_below(tiny, one, zero);
         let mut sum = zero;
@@ -280,7 +291,8 @@ impl<R: Real> View<R> {
             for &(z, weight) in &nodes.circle {
                 let z2 = k2 * (z * z);
                 let cosine2 = (z2 + 1.0).recip();
-                sum = sum + density(z2 * cosine2) * visible(cosine2, cosine2) * (cosine2 * weight);
+                let density = self.density(plane + across * (z2 * cosine2));
+                sum = sum + density * visible(cosine2, cosine2) * (cosine2 * weight);
             }
             sum = sum * k;
         }
@@ -305,7 +317,8 @@ impl<R: Real> View<R> {
                 let rest = beyond + k * gap * (y + to);
                 let cosine2 = (last + rest).max(tiny);
                 let dy = length * node.weight * k * cosh;
-                part = part + density(y * y) * visible(cosine2, rest) * dy / cosine2.sqrt();
+                let density = self.density(plane + across * (y * y));
+                part = part + density * visible(cosine2, rest) * dy / cosine2.sqrt();
             }
             part = zero.select_below(length, part, zero);
             sum = zero.select_below(whole, sum, part);
