@@ -32,6 +32,8 @@ use crate::table::grid::Grid;
 use crate::table::packed::Packed;
 use crate::table::{self, Table};
 use integration::{Checked, Integration, by_estimator, evaluations, sum};
+use sample::Groups;
+
 use std::time::Instant;
 
 /// A baked table, and a report for each part of each of its slices.
@@ -67,11 +69,20 @@ impl Plan<'_> {
         let mut values = Packed::zeros(request.precision(), count)?;
         let size = layout.values_of_slice() * request.precision().bytes();
         let (mut parts, mut reports, mut rounding) = (Vec::new(), Vec::new(), 0.0f64);
+        let groups = Groups::of(self);
         let slices = packings.iter().zip(values.bytes_mut().chunks_exact_mut(size));
         for (index, (packing, bytes)) in slices.enumerate() {
             let grid = &request.grids()[index];
             let parts_of_slice = &self.slices[index];
-            let slice = Slice { plan: self, index, packing, grid, parts: parts_of_slice, progress };
+            let slice = Slice {
+                plan: self,
+                groups: &groups,
+                index,
+                packing,
+                grid,
+                parts: parts_of_slice,
+                progress,
+            };
             let (outcomes, coarser) = slice.bake(bytes)?;
             rounding = rounding.max(request.precision().half_step() + coarser);
             let several = outcomes.len() > 1;
@@ -95,7 +106,7 @@ impl Plan<'_> {
             parts.push(of_slice);
         }
         if let Accuracy::Tolerance(_) | Accuracy::Rule(_) = request.accuracy() {
-            sample::share(&mut reports, &mut parts);
+            groups.share(&mut reports, &mut parts);
         }
         let table = Table::new(layout.clone(), values, parts, rounding, request.to_string())?;
         Ok(Baked { table, reports })
@@ -105,6 +116,7 @@ impl Plan<'_> {
 /// A slice of a table.
 struct Slice<'a> {
     plan: &'a Plan<'a>,
+    groups: &'a Groups,
     index: usize,
     packing: &'a Packing,
     grid: &'a Grid,
@@ -133,8 +145,8 @@ impl Slice<'_> {
         let precision = request.precision();
         let mut sheet = Sheet::new(self.packing, self.grid, precision, bytes);
         let mut outcomes = Vec::new();
-        for (part, plan) in self.packing.parts().into_iter().zip(self.parts) {
-            let on = PartOfSlice { slice: self, part: &part, plan };
+        for (place, (part, plan)) in self.packing.parts().into_iter().zip(self.parts).enumerate() {
+            let on = PartOfSlice { slice: self, place, part: &part, plan };
             let outcome = match request.accuracy() {
                 Accuracy::Rounded | Accuracy::Within(_) => on.certified(&mut sheet)?,
                 Accuracy::Tolerance(_) | Accuracy::Rule(_) => on.uncertified(&mut sheet)?,
@@ -176,6 +188,8 @@ impl Slice<'_> {
 /// A part of a slice.
 struct PartOfSlice<'a> {
     slice: &'a Slice<'a>,
+    /// Its place among the parts of the slice.
+    place: usize,
     part: &'a Part,
     plan: &'a PartPlan,
 }
@@ -253,10 +267,10 @@ impl PartOfSlice<'_> {
             integrand,
             baker: Baker::new(integrand, &rule),
             gpu: self.device().map(|(gpu, _)| gpu),
-            measured_points: sample::points(
+            measured_points: self.slice.groups.points(
                 self.slice.index,
-                self.slice.plan.slices.len(),
-                self.slice.bands().count() * self.slice.parts.len(),
+                self.place,
+                self.slice.bands().count(),
             ),
             checked: Checked::default(),
         };

@@ -34,7 +34,8 @@ pub struct Checks {
     pub evaluations: f64,
     /// The largest differences between a device and the CPU by the same rule in f64.
     pub cross_check: Option<Deviation>,
-    /// The largest errors found against the double-exponential reference.
+    /// The largest errors found against the double-exponential reference, in all slices by the
+    /// same rule with the same bound.
     pub measured: Deviation,
     /// The names of the integrals.
     pub integrals: Vec<&'static str>,

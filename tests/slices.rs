@@ -89,6 +89,32 @@ fn a_slice_has_a_claim_of_its_own() {
 }
 
 #[test]
+fn a_sample_speaks_for_the_slices_of_its_rule_and_keeps_their_bound() {
+    let folder = tempdir().unwrap();
+    // n = 1.01 has the bound of a layer of its own; the others are told apart by nothing. Four
+    // points are corners.
+    let iors: Vec<String> = (0..40).map(|i| (1.4 + 0.01 * f64::from(i)).to_string()).collect();
+    let bake = "bake --backend cpu --lut glass --size 8 --precision f32 --rule g560 -o g.exr";
+    let text = ok(&folder, &format!("{bake} --json --ior 1.01,{}", iors.join(","))).stdout;
+    let reports: serde_json::Value = serde_json::from_slice(&text).unwrap();
+    let reports = reports["tables"].as_array().unwrap();
+    assert_eq!(reports.len(), 41);
+    let of = |report: &serde_json::Value| {
+        let claim = &report["uncertified"];
+        let number = |value: &serde_json::Value| value.as_f64().unwrap();
+        let measured = &claim["measured_error"];
+        let of_checks = &report["checks"]["measured"];
+        assert_eq!(measured[1], of_checks["points"]);
+        (number(&measured[0]), number(&measured[1]), number(&claim["error_bound"]))
+    };
+    let [layer, first, last] = [0, 1, 40].map(|i| of(&reports[i]));
+    for (error, points, bound) in [layer, first, last] {
+        assert!(error > 0.0 && error <= bound && points > 4.0, "{error} {points} {bound}");
+    }
+    assert!(layer.2 > 10.0 * first.2 && first == last && layer.1 < first.1);
+}
+
+#[test]
 fn slices_that_no_table_or_file_has_are_refused() {
     let folder = tempdir().unwrap();
     for (arguments, said) in [

@@ -37,6 +37,7 @@ fn main() {
     println!("CPU: {name}, {threads} threads; splitsum {version}\n");
     methods();
     processes();
+    glass();
     devices();
     certified();
 }
@@ -80,23 +81,54 @@ fn processes() {
     let Ok(folder) = tempfile::tempdir() else { return };
     println!("| `splitsum bake --backend cpu`, from start to file | ms |\n| --- | --- |");
     for size in ["64", "128", "256", "512", "1024"] {
-        let run = |_| {
-            let mut command = Command::new(env!("CARGO_BIN_EXE_splitsum"));
-            command.current_dir(&folder).args([
-                "bake",
-                "--backend",
-                "cpu",
-                "-q",
-                "-o",
-                "x.exr",
-                "--size",
-                size,
-            ]);
-            let (status, time) = timed(|| command.status());
-            assert!(status.unwrap().success());
-            time
-        };
-        println!("| --size {size} | {:.1} |", 1e3 * median((0..9).map(run).collect()));
+        let seconds = process(&folder, 9, &["--backend", "cpu", "--size", size]);
+        println!("| --size {size} | {:.1} |", 1e3 * seconds);
+    }
+    println!();
+}
+
+/// The median time of whole bakes with these arguments.
+fn process(folder: &tempfile::TempDir, runs: usize, arguments: &[&str]) -> f64 {
+    let run = |_| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_splitsum"));
+        command.current_dir(folder).args(["bake", "-q", "-o", "x.exr"]).args(arguments);
+        let (status, time) = timed(|| command.status());
+        assert!(status.unwrap().success(), "{arguments:?}");
+        time
+    };
+    median((0..runs).map(run).collect())
+}
+
+/// Tables of glass over n·v, roughness and 32 indices of refraction, from either side, from start
+/// to file: by the CPU, then by every device; ratios are to the first row.
+fn glass() {
+    let Ok(folder) = tempfile::tempdir() else { return };
+    let table = ["--lut", "glass", "--side", "both", "--z", "ior,max=2", "--size", "32x32x32"];
+    let ways: [(&str, &[&str]); 3] = [
+        ("f32 within 1e-5, certified", &["--precision", "f32", "--tolerance", "1e-5"]),
+        (
+            "f32 within 1e-5, a sample measured",
+            &["--precision", "f32", "--tolerance", "1e-5", "--certify", "off"],
+        ),
+        ("f16, certified", &[]),
+    ];
+    println!("| glass, 32 x 32 x 32, R and T from both sides | by | ms | ratio |");
+    println!("| --- | --- | --- | --- |");
+    let mut first = None;
+    let mut row = |name: &str, by: &str, backend: &[&str], way: &[&str]| {
+        let seconds = process(&folder, 3, &[&table, backend, way].concat());
+        let ratio = seconds / *first.get_or_insert(seconds);
+        println!("| {name} | {by} | {:.0} | {ratio:.2} |", 1e3 * seconds);
+    };
+    for (name, way) in ways {
+        row(name, "CPU", &["--backend", "cpu"], way);
+    }
+    for device in list_devices().unwrap_or_default() {
+        let backend = ["--backend", "vulkan", "--device", &device.uuid];
+        // What is certified within a tolerance is the CPU's alone.
+        for (name, way) in &ways[1..] {
+            row(name, &device.name, &backend, way);
+        }
     }
     println!();
 }

@@ -24,7 +24,8 @@ use std::sync::Arc;
 /// Texels that a thread takes at a time: some 0.2 ms of work by a cheap rule, and of few texels an
 /// eighth of its share, whole groups of lanes, since one by the reference takes milliseconds.
 fn chunk(texels: usize) -> usize {
-    texels.div_ceil(8 * rayon::current_num_threads()).next_multiple_of(LANES).min(8 * LANES)
+    let share = texels.div_ceil(8 * rayon::current_num_threads());
+    share.next_multiple_of(LANES).clamp(LANES, 8 * LANES)
 }
 
 const LANES: usize = F64x8::LANES;

@@ -12,7 +12,7 @@ use crate::table::grid::Grid;
 /// missing unnoticed.
 const RUN: usize = 64;
 
-/// Points of a grid that are measured against the reference, at half a millisecond each.
+/// Points of a table that are measured against the reference, at half a millisecond each.
 pub const MEASURED: usize = 128;
 
 /// The largest differences over a sample of points: texels, and the directions of averages.

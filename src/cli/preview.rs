@@ -88,14 +88,16 @@ pub fn run(arguments: &PreviewArgs) -> Result<()> {
     let (picture, device) = match &rows {
         Rows::Lobes(rows) => {
             let device = backend.device().map_or("the CPU", |gpu| &gpu.info().name);
-            (render(rows, size, &backend, &told)?, device)
+            (render(rows, size, &backend, &told)?, device.to_string())
         }
         Rows::Of(material) => {
             let expected = "punctual, furnace or sky, for a device";
             let got = arguments.scene.word();
-            backend
-                .choose(Some(Complaint::new("scene", expected, got, "use --backend cpu")), 0.0)?;
-            (material::render(*material, size, &told)?, "the CPU")
+            let complaint = Complaint::new("scene", expected, got, "use --backend cpu");
+            let reason = backend.choose(Some(complaint), 0.0)?.reason;
+            let reason =
+                reason.map_or(String::new(), |reason| format!("; not on Vulkan: {reason}"));
+            (material::render(*material, size, &told)?, format!("the CPU{reason}"))
         }
     };
     drop(progress);

@@ -261,11 +261,12 @@ const GLASS_BECKMANN: Columns = Columns {
     ..WITHOUT_GLASS
 };
 
-/// The beta function falls like a power of n·l that is no whole number, which no rule resolves.
+/// The beta function falls like a power of n·l that is no whole number, which no rule resolves:
+/// worst where n·v = 0, α = 1 and n is about 10.
 const GLASS_BETA: Columns = Columns {
     g112: all(3e-2),
-    g560: all(1e-3),
-    g904: all(1e-4),
+    g560: all(2e-3),
+    g904: all(5e-4),
     g2240: all(4e-5),
     g4536: all(8e-6),
     reference: all(3e-12),

@@ -33,7 +33,7 @@ const LIGHT_DIRECTIONS: f64 = 2.0;
 const POLYNOMIAL_TERM: f64 = 0.5;
 
 /// Nanoseconds for an evaluation of glass.
-const GLASS: f64 = 4.0;
+const GLASS: f64 = 10.0;
 
 /// Nanoseconds for a diffuse lobe's closed form.
 const CLOSED_FORM: f64 = 50.0;

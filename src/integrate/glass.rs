@@ -13,7 +13,7 @@
 //! does not cancel where t_j is an end of the interval. 1 - F falls like the root of that distance
 //! from the critical angle: t = t_j (1 - (1-v)²) makes it smooth.
 //!
-//! Closures that take lanes are `inline(always)`: whatever the compiler leaves as a function of its
+//! Closures over nodes are `inline(always)`: whatever the compiler leaves as a function of its
 //! own has none of the instructions that [`crate::numeric::lanes::vectorised`] chose.
 //!
 //! *Pieces* meet at the slopes tan θ_h where

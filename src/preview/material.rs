@@ -1,9 +1,8 @@
 //! Spheres of glass, of a coated base and of a metal in a white furnace and under the sky: by a
 //! table, by the integral, and their difference times 100.
 //!
-//! In the furnace the integral is that of the table's own numbers, which the table is read between.
-//! Under the sky the table's numbers scale a prefiltered sky, as engines do; the integral has no
-//! such split. What is refracted sees the sky as if the ball had no far side.
+//! In the furnace the table is held against the integrals that its texels hold. Under the sky the
+//! table's numbers scale a prefiltered sky, as engines do; the integral has no such split. What is refracted sees the sky as if the ball had no far side.
 
 mod optics;
 
@@ -44,7 +43,7 @@ pub enum Light {
 pub enum Way {
     /// By numbers read from a table.
     Table,
-    /// By brute force.
+    /// By the integral itself.
     Integral,
 }
 

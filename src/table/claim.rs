@@ -17,7 +17,8 @@ pub enum Claim {
         /// The largest error of a value before it is stored; of values above 1 relative.
         error_bound: f64,
         /// The largest error found against the double-exponential reference, and the number of
-        /// points compared: texels, and directions of averages.
+        /// points compared, in all slices by this rule with this bound: texels, and directions of
+        /// averages.
         measured_error: (f64, usize),
         /// Backend, arithmetic and device.
         computed_by: String,

@@ -14,7 +14,7 @@ use crate::integrate::rule::Rule;
 use crate::integrate::rules::REFERENCE;
 use crate::numeric::quadrature::gauss_legendre::gauss_legendre;
 use crate::preview::curve::{Curve, NODES, Samples, points};
-use crate::preview::moments::{Moments, View};
+use crate::preview::moments::{MOMENT_NODES, Moments, View};
 use crate::preview::{Column, TABLE};
 use crate::table::axis::{Axis, AxisSpec, Parameter};
 use crate::table::grid::Grid;
@@ -29,9 +29,6 @@ pub const LOBE: Microfacet = Microfacet { ndf: Ndf::Ggx, masking: Masking::Heigh
 
 /// Half a step of 8 bits where sRGB is steepest, of a hundredfold difference, as for plans.
 const TOLERANCE: f64 = 1.5e-6;
-
-/// Nodes of the moments over √(n·v): a picture shows less than they err between nodes.
-const MOMENT_NODES: usize = 1025;
 
 /// N integrals by a table and by a rule, over n·v.
 pub struct Read<const N: usize> {
