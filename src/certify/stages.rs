@@ -10,9 +10,9 @@ use crate::table::claim::{Stage, StageError};
 use crate::table::grid::Grid;
 use crate::table::precision::Precision;
 
-/// The most values of a lobe, in all slices, that are rounded correctly to f32, whose steps are as fine as the
-/// fast stages' bounds: each takes the 24,000 evaluations of the reference, all of them 0.2 s for
-/// GGX and 2 s for Charlie on one thread.
+/// The most values of a lobe, in all slices, that are rounded correctly to f32, whose steps are as
+/// fine as the fast stages' bounds: each takes the 24,000 evaluations of the reference, all of them
+/// 0.2 s for GGX and 2 s for Charlie on one thread.
 pub const LARGEST_F32: usize = 4096;
 
 /// The same of glass, whose reference takes some ten times as long.
