@@ -275,7 +275,8 @@ const GLASS_BETA: Columns = Columns {
 
 /// What a layer adds for a rough interface. Where the index is near 1, F falls from 1 within the
 /// root of n² - 1 of grazing incidence; where it is large, within 1/n. Rules err most where that is
-/// as wide as the spacing of their nodes: g560 at n = 1.002, g904 at 1.0013 and 30, g2240 at 1.0002.
+/// as wide as the spacing of their nodes: `g560` at n = 1.002, `g904` at 1.0013 and 30, `g2240` at
+/// 1.0002.
 pub fn glass_layer(interface: Interface) -> Option<&'static Columns> {
     match interface.ior() {
         ..1.002 | 12.0.. => Some(&GLASS_LAYER),

@@ -2,7 +2,8 @@
 //! table, by the integral, and their difference times 100.
 //!
 //! In the furnace the table is held against the integrals that its texels hold. Under the sky the
-//! table's numbers scale a prefiltered sky, as engines do; the integral has no such split. What is refracted sees the sky as if the ball had no far side.
+//! table's numbers scale a prefiltered sky, as engines do; the integral has no such split. What is
+//! refracted sees the sky as if the ball had no far side.
 
 mod optics;
 
