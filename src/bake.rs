@@ -33,7 +33,6 @@ use crate::table::packed::Packed;
 use crate::table::{self, Table};
 use integration::{Checked, Integration, by_estimator, evaluations, sum};
 use sample::Groups;
-
 use std::time::Instant;
 
 /// A baked table, and a report for each part of each of its slices.
@@ -73,14 +72,13 @@ impl Plan<'_> {
         let slices = packings.iter().zip(values.bytes_mut().chunks_exact_mut(size));
         for (index, (packing, bytes)) in slices.enumerate() {
             let grid = &request.grids()[index];
-            let parts_of_slice = &self.slices[index];
             let slice = Slice {
                 plan: self,
                 groups: &groups,
                 index,
                 packing,
                 grid,
-                parts: parts_of_slice,
+                parts: &self.slices[index],
                 progress,
             };
             let (outcomes, coarser) = slice.bake(bytes)?;

@@ -40,7 +40,7 @@ fn the_light_of_all_directions_is_what_a_table_holds() {
         for (i, &mu) in MUS.iter().enumerate() {
             let view = View::new(mu, alpha);
             let reflected = view.reflected(GGX, |c| medium.weights(c)[0])[0];
-            let transmitted = view.transmitted(interface, medium)[0];
+            let transmitted = view.transmitted(interface)[0];
             let metal = view.reflected(GGX, |c| conductor.weights(c)[0])[0];
             let pairs = [
                 (reflected, of_glass[2 * i]),
@@ -62,7 +62,7 @@ fn curves_keep_what_they_promise_between_their_nodes() {
     let mus: Vec<f64> = mus.into_iter().chain((0..400).map(|i| 1e-8 * f64::from(i * i))).collect();
     for roughness in ROUGHNESSES {
         let alpha = roughness * roughness;
-        let at = |mu| View::new(mu, alpha).transmitted(interface, medium);
+        let at = |mu| View::new(mu, alpha).transmitted(interface);
         let of_metal = |mu| View::new(mu, alpha).reflected(GGX, |c| medium.weights(c)[0]);
         for moments in [&at as &(dyn Fn(f64) -> Moments + Sync), &of_metal] {
             let curve = Curve::of(MOMENT_NODES, moments).unwrap();
@@ -151,7 +151,7 @@ fn moments_are_those_of_sums_over_light_directions() {
             vh * -lh / (v.z * -l.z) * jacobian * passed
         };
         let reflected = view.reflected(GGX, |c| medium.weights(c)[0]);
-        let transmitted = view.transmitted(interface, medium);
+        let transmitted = view.transmitted(interface);
         // The midpoint rule has 1,200 steps along each axis, and errs by their square where the
         // integrand is smooth. Refracted light ends where h lies on the horizon, at which D of GGX
         // is not 0: that jump costs a step (1.8e-4 with 1,200, 8e-5 with 2,400, 5e-5 with 4,800).

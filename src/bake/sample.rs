@@ -8,6 +8,7 @@ use crate::numeric::lanes::{F64x8, Vector};
 use crate::report::Report;
 use crate::table;
 use crate::table::claim::Claim;
+use std::collections::HashMap;
 
 /// For each part of each slice what it has to share with another to be measured with it: the name
 /// and the bits of the bound of its rule.
@@ -36,31 +37,23 @@ impl Groups {
 
     /// Gives each part what was measured in all slices of its group.
     pub fn share(&self, reports: &mut [Report], parts: &mut [Vec<table::Part>]) {
-        let places: Vec<(usize, usize)> = (0..self.0.len())
-            .flat_map(|slice| (0..self.0[slice].len()).map(move |part| (slice, part)))
-            .collect();
-        let measured: Vec<Deviation> = places
-            .iter()
-            .map(|&(slice, part)| {
-                let same = |other: &usize| {
-                    let (at, place) = places[*other];
-                    place == part && self.0[at][place] == self.0[slice][part]
-                };
-                let checks =
-                    (0..places.len()).filter(same).filter_map(|at| reports[at].checks.as_ref());
-                checks
-                    .map(|checks| checks.measured.clone())
-                    .fold(Deviation::default(), Deviation::merge)
-            })
-            .collect();
-        for ((report, measured), (slice, part)) in reports.iter_mut().zip(measured).zip(places) {
-            let claim = &mut parts[slice][part].claim;
-            if let Claim::Uncertified { measured_error, .. } = claim {
-                *measured_error = (measured.max(), measured.points);
+        let groups = || self.0.iter().flat_map(|parts| parts.iter().enumerate());
+        let mut measured: HashMap<_, Deviation> = HashMap::new();
+        for (group, report) in groups().zip(&*reports) {
+            if let Some(checks) = &report.checks {
+                let so_far = measured.entry(group).or_default();
+                *so_far = std::mem::take(so_far).merge(checks.measured.clone());
             }
-            report.claim = claim.clone();
+        }
+        let parts = parts.iter_mut().flatten();
+        for ((group, report), part) in groups().zip(reports).zip(parts) {
+            let Some(all) = measured.get(&group) else { continue };
+            if let Claim::Uncertified { measured_error, .. } = &mut part.claim {
+                *measured_error = (all.max(), all.points);
+            }
+            report.claim = part.claim.clone();
             if let Some(checks) = &mut report.checks {
-                checks.measured = measured;
+                checks.measured = all.clone();
             }
         }
     }

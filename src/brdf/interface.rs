@@ -142,6 +142,11 @@ impl Interface {
         self.lobe
     }
 
+    /// The medium.
+    pub const fn medium(self) -> Dielectric {
+        self.medium
+    }
+
     /// n of the medium.
     pub const fn ior(self) -> f64 {
         self.medium.ior()

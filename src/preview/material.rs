@@ -128,8 +128,7 @@ fn mirrored(albedo: f64, n: DVec3, means: (f64, f64)) -> DVec3 {
 impl Sphere {
     /// The colour at a place of the unit square; without a way a hundredfold difference.
     fn shade(&self, light: Light, way: Option<Way>, p: DVec2) -> DVec3 {
-        let n = normal(p);
-        let beyond = n.x * n.x + n.y * n.y >= 1.0;
+        let (n, beyond) = normal(p);
         match (light, way) {
             (_, None) if beyond => AROUND_DIFFERENCE,
             (Light::Furnace, _) if beyond => DVec3::ONE,
@@ -156,7 +155,7 @@ impl Sphere {
             Optics::Glass { albedos, .. } => DVec3::splat(albedos.at(way, mu).iter().sum()),
             Optics::Coat { interface, averages, .. } => {
                 let [s] = interface.albedo.at(way, mu);
-                s + (1.0 - s) * coloured(way, averages)
+                s + (1.0 - s) * coloured(by(way, averages))
             }
             Optics::Metal(lobes) => each(lobes, |lobe| DVec3::splat(lobe.albedo.at(way, mu)[0])),
         }
@@ -179,15 +178,10 @@ impl Sphere {
             }
             Optics::Coat { interface, averages, passed } => {
                 let [s] = interface.albedo.at(way, mu);
-                let base = match way {
-                    // What falls on the base, as if it were Lambert's.
-                    Way::Table => sky(n.y, 2.0 / 3.0, 0.25),
-                    Way::Integral => {
-                        let [all, p1, p2] = *passed;
-                        SKY0 + SKY1 * (p1 / all * n.y) + SKY2 * (p2 / all * (1.5 * n.y * n.y - 0.5))
-                    }
-                };
-                interface.light(way, n, means) + (1.0 - s) * coloured(way, averages) * base
+                // What falls on the base, as if it were Lambert's, or as it does.
+                let (p1, p2) = by(way, passed);
+                let base = sky(n.y, p1, p2);
+                interface.light(way, n, means) + (1.0 - s) * coloured(by(way, averages)) * base
             }
             Optics::Metal(lobes) => each(lobes, |lobe| lobe.light(way, n, means)),
         }
@@ -200,12 +194,16 @@ fn each(lobes: &[Lobe], of: impl Fn(&Lobe) -> DVec3) -> DVec3 {
     channels.map(|(lobe, channel)| channel * of(lobe)).sum()
 }
 
-/// The base's albedo as it is seen through the interface.
-fn coloured(way: Way, [by_table, exact]: &[f64; 2]) -> DVec3 {
-    let average = match way {
+/// What is by the table, or what is by the integral.
+fn by<T: Copy>(way: Way, &[by_table, by_integral]: &[T; 2]) -> T {
+    match way {
         Way::Table => by_table,
-        Way::Integral => exact,
-    };
+        Way::Integral => by_integral,
+    }
+}
+
+/// The base's albedo as it is seen through the interface.
+fn coloured(average: f64) -> DVec3 {
     let k = 1.0 - (1.0 - average) / (IOR * IOR);
     DVec3::from_array(BASE.to_array().map(|rho| effective_albedo(rho, k)))
 }

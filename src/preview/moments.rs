@@ -10,10 +10,11 @@
 //! GGX, with 1 + tan² θ_h/α² = eᵗ, D cos θ_h dω_h = e⁻ᵗ dt dφ/(2π): the density is gone.
 
 use crate::brdf::Microfacet;
-use crate::brdf::fresnel::{Basis, Dielectric};
+use crate::brdf::fresnel::Basis;
 use crate::brdf::interface::Interface;
 use crate::numeric::quadrature::gauss_legendre::{Node, gauss_legendre};
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::LazyLock;
 
 /// ∫ f |n·l| of 1, l·n, (l·t)/sin θ_v, (l·n)², (l·n)(l·t)/sin θ_v, (l·t)².
 pub type Moments = [f64; 6];
@@ -21,8 +22,8 @@ pub type Moments = [f64; 6];
 /// Nodes of a curve of moments over √(n·v): between them it errs by less than 2e-5.
 pub const MOMENT_NODES: usize = 1025;
 
-/// Nodes in a piece of slopes, and in azimuth.
-const NODES: usize = 48;
+/// The nodes in a piece of slopes, and in azimuth.
+static NODES: LazyLock<Vec<Node>> = LazyLock::new(|| gauss_legendre(48));
 
 /// e⁻ᵗ there is what is left out of D: far less than a picture shows.
 const LAST: f64 = 28.0;
@@ -46,7 +47,6 @@ pub struct View {
     mu: f64,
     sine: f64,
     alpha: f64,
-    nodes: Vec<Node>,
 }
 
 impl View {
@@ -54,12 +54,12 @@ impl View {
     pub fn new(mu: f64, alpha: f64) -> Self {
         let mu = mu.min(UPRIGHT);
         let sine = ((1.0 - mu) * (1.0 + mu)).sqrt();
-        View { mu, sine, alpha, nodes: gauss_legendre(NODES) }
+        View { mu, sine, alpha }
     }
 
     /// Of light that GGX with the lobe's masking reflects; `reflectance` is F at v·h.
     pub fn reflected(&self, lobe: Microfacet, reflectance: impl Fn(f64) -> f64) -> Moments {
-        let &View { mu, sine, alpha, .. } = self;
+        let &View { mu, sine, alpha } = self;
         let view = mu.acos();
         // The ring of half vectors touches the horizon of l, and leaves it.
         let ends = [0.0, 0.5 * (FRAC_PI_2 - view), 0.5 * (FRAC_PI_2 + view)];
@@ -74,8 +74,8 @@ impl View {
     }
 
     /// Of light that passes an interface from the thinner side.
-    pub fn transmitted(&self, interface: Interface, medium: Dielectric) -> Moments {
-        let &View { mu, sine, alpha, .. } = self;
+    pub fn transmitted(&self, interface: Interface) -> Moments {
+        let &View { mu, sine, alpha } = self;
         let (eta, k) = (interface.eta(), interface.k());
         let area_v = interface.lobe().masking_projected_area(mu, alpha);
         let ends = [0.0, FRAC_PI_2 - mu.acos(), FRAC_PI_2];
@@ -88,7 +88,7 @@ impl View {
                 let turn = vh - (k + vh * vh).sqrt();
                 let (ln, lt) = ((turn * cosine - mu) / eta, (turn * along - sine) / eta);
                 let visible = interface.transmitted_visibility((-ln).min(1.0), mu, area_v, alpha);
-                let [reflected] = medium.weights(vh);
+                let [reflected] = interface.medium().weights(vh);
                 (4.0 * vh * (1.0 - reflected) * visible, ln, lt)
             },
         )
@@ -109,7 +109,7 @@ impl View {
             if first >= last {
                 continue;
             }
-            for node in &self.nodes {
+            for node in &*NODES {
                 let root = first + (last - first) * node.at;
                 let depth = root * root;
                 let tangent = self.alpha * depth.exp_m1().sqrt();
@@ -121,7 +121,7 @@ impl View {
                 let azimuth = end.acos();
                 // Both sides of the plane of v, over 2π.
                 let ring = 2.0 * root * (last - first) * node.weight * (-depth).exp() / cosine / PI;
-                for node in &self.nodes {
+                for node in &*NODES {
                     let along = (azimuth * node.at).cos();
                     let vh = (middle + swing * along).clamp(0.0, 1.0);
                     let half = Half { cosine, along: tangent * cosine * along, vh };

@@ -5,7 +5,7 @@
 //! quarters of a pixel, both odd, n·v depends on u² + v² alone, which is 2 + 8k: a sphere takes as
 //! many integrals as there are such sums, each at the very n·v of its samples.
 
-use super::srgb;
+use super::{rule_of_picture, srgb};
 use crate::approximation::Approximation;
 use crate::approximation::code::check;
 use crate::backend::{Progress, cpu};
@@ -13,8 +13,6 @@ use crate::brdf::Microfacet;
 use crate::error::Result;
 use crate::image::Picture;
 use crate::integrate::ScaleBias;
-use crate::integrate::rule::Rule;
-use crate::integrate::rules::REFERENCE;
 use crate::numeric::lanes::{F32x16, Vector};
 use crate::planner::check::part_for;
 use crate::planner::domain::Piece;
@@ -27,10 +25,6 @@ pub const MOST_COLUMNS: usize = 8;
 
 /// Spheres of a range of roughness at the most.
 const MOST_OF_A_RANGE: usize = 4;
-
-/// Half a step of 8 bits where sRGB is steepest, 12.92 steps to one of light, of a difference that
-/// is shown a hundredfold: 1 / (2 · 255 · 12.92 · 100), rounded.
-const TOLERANCE: f64 = 1.5e-6;
 
 /// The sphere's edge lies at this share of its cell: a twin of the one in `shade`.
 const MARGIN: f64 = 1.06;
@@ -155,7 +149,7 @@ fn by_lookup(column: &Column, novs: &[f64], f0: f64) -> Vec<f64> {
 
 /// (A, B) at these n·v by the cheapest rule that is right to the picture's eye.
 fn integrals(lobe: Microfacet, roughness: f64, novs: &[f64]) -> Vec<ScaleBias> {
-    let rule = Rule::for_cpu(lobe, TOLERANCE, novs.len()).unwrap_or(REFERENCE);
+    let rule = rule_of_picture(lobe, novs.len());
     let alpha = alpha_of(roughness);
     let chunks = novs.par_chunks(512).flat_map(|chunk| {
         let points: Vec<(f64, f64)> = chunk.iter().map(|&nov| (nov, alpha)).collect();

@@ -22,6 +22,9 @@ pub const SKY1: DVec3 = DVec3::new(0.3, 0.42, 0.6);
 /// Of P2.
 pub const SKY2: DVec3 = DVec3::new(-0.22, -0.12, 0.0);
 
+/// The means of P1 and P2 over Lambert's kernel.
+pub const LAMBERT: (f64, f64) = (2.0 / 3.0, 0.25);
+
 /// A sphere, ready for the CPU.
 pub struct Sphere {
     /// Its lobe.
@@ -85,23 +88,23 @@ fn daylight(sphere: &Sphere, n: DVec3) -> DVec3 {
     let e = lookup(sphere, mu).at_f0(DIELECTRIC);
     // The reflected direction of v = (0, 0, 1) has the height 2 n·v n.y.
     let specular = e * sky(2.0 * mu * n.y, means.0, means.1);
-    specular + (1.0 - e) * BASE * sky(n.y, 2.0 / 3.0, 0.25)
+    specular + (1.0 - e) * BASE * sky(n.y, LAMBERT.0, LAMBERT.1)
 }
 
 /// The colour around a sphere of differences.
 pub const AROUND_DIFFERENCE: DVec3 = DVec3::splat(0.02);
 
-/// The normal at a place of the unit square around a sphere; y runs down. Beyond its edge, where
-/// x² + y² >= 1, its z is 0.
-pub fn normal(p: DVec2) -> DVec3 {
+/// The normal at a place of the unit square around a sphere, y running down, and whether the place
+/// lies beyond its edge, where x² + y² >= 1.
+pub fn normal(p: DVec2) -> (DVec3, bool) {
     let (x, y) = ((2.0 * p.x - 1.0) * 1.06, (1.0 - 2.0 * p.y) * 1.06);
-    DVec3::new(x, y, (1.0 - (x * x + y * y)).max(0.0).sqrt())
+    let r2 = x * x + y * y;
+    (DVec3::new(x, y, (1.0 - r2).max(0.0).sqrt()), r2 >= 1.0)
 }
 
 /// The colour at a place of the unit square around a sphere.
 pub fn shade(scene: Scene, sphere: &Sphere, p: DVec2) -> DVec3 {
-    let n = normal(p);
-    let beyond = n.x * n.x + n.y * n.y >= 1.0;
+    let (n, beyond) = normal(p);
     match scene {
         Scene::Punctual | Scene::FurnaceDifference if beyond => AROUND_DIFFERENCE,
         Scene::Sky if beyond => sky(n.y.clamp(-1.0, 1.0), 1.0, 1.0),

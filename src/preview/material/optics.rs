@@ -10,13 +10,11 @@ use crate::brdf::{Fresnel, Masking, Microfacet, Ndf};
 use crate::error::{Error, Result};
 use crate::integrate::Integrand;
 use crate::integrate::average::average_nodes;
-use crate::integrate::rule::Rule;
-use crate::integrate::rules::REFERENCE;
-use crate::numeric::quadrature::gauss_legendre::gauss_legendre;
+use crate::numeric::quadrature::gauss_legendre::{Node, gauss_legendre};
 use crate::preview::curve::{Curve, NODES, Samples, points};
 use crate::preview::moments::{MOMENT_NODES, Moments, View};
-use crate::preview::{Column, TABLE};
-use crate::table::axis::{Axis, AxisSpec, Parameter};
+use crate::preview::shade::LAMBERT;
+use crate::preview::{Column, axes, means, rule_of_picture};
 use crate::table::grid::Grid;
 use crate::units::alpha_of;
 use std::f64::consts::FRAC_PI_2;
@@ -26,9 +24,6 @@ pub const IOR: f64 = 1.5;
 
 /// The lobe.
 pub const LOBE: Microfacet = Microfacet { ndf: Ndf::Ggx, masking: Masking::HeightCorrelated };
-
-/// Half a step of 8 bits where sRGB is steepest, of a hundredfold difference, as for plans.
-const TOLERANCE: f64 = 1.5e-6;
 
 /// N integrals by a table and by a rule, over n·v.
 pub struct Read<const N: usize> {
@@ -46,8 +41,9 @@ pub struct Lobe {
 pub enum Optics {
     /// R and T; the moments of both; of refracted light the means of P1 and P2 about -n.
     Glass { albedos: Read<2>, moments: [Curve<6>; 2], means: (f64, f64) },
-    /// The interface; S_avg by the table and exactly; 2 ∫ (1-S) Pk μ dμ for k from 0 to 2.
-    Coat { interface: Lobe, averages: [f64; 2], passed: [f64; 3] },
+    /// The interface; S_avg by the table and exactly; the means of P1 and P2 of light that passes
+    /// it, by both.
+    Coat { interface: Lobe, averages: [f64; 2], passed: [(f64, f64); 2] },
     /// Red, green and blue.
     Metal(Vec<Lobe>),
 }
@@ -73,12 +69,12 @@ impl<const N: usize> Read<N> {
 
 fn glass(columns: &[Column]) -> Result<Vec<Optics>> {
     let interface = Interface::new(LOBE, IOR, Side::Outside, TransmissionMasking::Correlated)?;
-    let medium = Dielectric::new(IOR)?;
+    let medium = interface.medium();
     let optics = |(column, albedos): (&Column, Read<2>)| {
         let alpha = column.alpha;
         let reflected =
             moments(|mu| View::new(mu, alpha).reflected(LOBE, |c| medium.weights(c)[0]));
-        let transmitted = moments(|mu| View::new(mu, alpha).transmitted(interface, medium));
+        let transmitted = moments(|mu| View::new(mu, alpha).transmitted(interface));
         let means = refracted_means(alpha);
         Ok(Optics::Glass { albedos, moments: [reflected?, transmitted?], means })
     };
@@ -88,20 +84,18 @@ fn glass(columns: &[Column]) -> Result<Vec<Optics>> {
 fn coats(columns: &[Column]) -> Result<Vec<Optics>> {
     let medium = Dielectric::new(IOR)?;
     let of = Integrand::Specular(LOBE, Fresnel::Dielectric(medium));
-    let baker = Baker::new(of, &rule(of, NODES));
+    let baker = Baker::new(of, &rule_of_picture(of, NODES));
     let (_, y) = axes()?;
     let rows = baker.averages(&y.values().iter().map(|&r| alpha_of(r)).collect::<Vec<_>>());
     let optics = |(column, interface): (&Column, Lobe)| {
         let (i, next, share) = y.neighbours(column.roughness);
         let (low, high) = (rows.values()[i], rows.values()[next]);
         let exact = baker.averages(&[column.alpha]).values()[0];
-        let mut passed = [0.0; 3];
-        for (mu, weight) in average_nodes() {
+        let kernel = |(mu, weight): (f64, f64)| {
             let [s] = interface.albedo.integral.at(mu);
-            let part = weight * (1.0 - s);
-            let polynomials = [1.0, mu, 1.5 * mu * mu - 0.5];
-            passed.iter_mut().zip(polynomials).for_each(|(sum, p)| *sum += part * p);
-        }
+            (weight * (1.0 - s), mu)
+        };
+        let passed = [LAMBERT, means(average_nodes().into_iter().map(kernel))];
         let averages = [low + share * (high - low), exact];
         Optics::Coat { interface, averages, passed }
     };
@@ -135,21 +129,10 @@ fn moments(at: impl Fn(f64) -> Moments + Send + Sync) -> Result<Curve<6>> {
     Curve::of(MOMENT_NODES, at)
 }
 
-/// The cheapest rule that is right to the picture's eye.
-fn rule(of: Integrand, points: usize) -> Rule {
-    Rule::for_cpu(of, TOLERANCE, points).unwrap_or(REFERENCE)
-}
-
-/// The axes of the tables, with texel centres as the other previews have.
-fn axes() -> Result<(Axis, Axis)> {
-    let axis = |parameter| Axis::new(AxisSpec::of(parameter), TABLE);
-    Ok((axis(Parameter::Nov)?, axis(Parameter::Roughness)?))
-}
-
 /// The integrals at each column's roughness, by a table of them and by a rule.
 fn read<const N: usize>(of: Integrand, columns: &[Column]) -> Result<Vec<Read<N>>> {
     let (x, y) = axes()?;
-    let rule = rule(of, NODES);
+    let rule = rule_of_picture(of, NODES);
     let values = points(&cpu::bake(of, &Grid::new(&x, &y)?, &rule, &|_| ()));
     let table = Samples { x, y, values };
     let read = |column: &Column| {
@@ -162,14 +145,12 @@ fn read<const N: usize>(of: Integrand, columns: &[Column]) -> Result<Vec<Read<N>
 /// The means of P1 and P2 of refracted light about -n, for half vectors by D n·h with v = n and
 /// light weighted by |n·l|: the kernel of [`Column`] for light that passes.
 fn refracted_means(alpha: f64) -> (f64, f64) {
-    let (mut weight, mut p1, mut p2) = (0.0, 0.0, 0.0);
-    for node in gauss_legendre(256) {
+    let kernel = |node: Node| {
         let theta = node.at * FRAC_PI_2;
         let (c, y) = (theta.cos(), theta.tan() / LOBE.ndf.width(alpha));
         // x = -n·l with l = (-v + (c - g) h)/η, g² = η² - 1 + c².
         let x = (1.0 + ((IOR * IOR - 1.0 + c * c).sqrt() - c) * c) / IOR;
-        let w = node.weight * y * LOBE.ndf.slope_density(y * y, alpha) / (c * c) * x;
-        (weight, p1, p2) = (weight + w, p1 + w * x, p2 + w * (1.5 * x * x - 0.5));
-    }
-    (p1 / weight, p2 / weight)
+        (node.weight * y * LOBE.ndf.slope_density(y * y, alpha) / (c * c) * x, x)
+    };
+    means(gauss_legendre(256).into_iter().map(kernel))
 }
