@@ -102,7 +102,7 @@ impl Interface {
     pub fn samples() -> Vec<Self> {
         let mut samples = Vec::new();
         let near = [1.000_001, 1.000_2, 1.001_3, 1.002, 1.05, 1.33];
-        let far = [1.5, 2.999, 8.0, 11.999, 30.0, 100.0];
+        let far = [1.5, 2.749, 8.0, 11.999, 30.0, 100.0];
         for (i, ior) in near.into_iter().chain(far).enumerate() {
             for (j, side) in Side::ALL.iter().enumerate() {
                 // Every kind with two of the indices.

@@ -280,7 +280,7 @@ const GLASS_BETA: Columns = Columns {
 pub fn glass_layer(interface: Interface) -> Option<&'static Columns> {
     match interface.ior() {
         ..1.002 | 12.0.. => Some(&GLASS_LAYER),
-        ..1.05 | 3.0.. => Some(&GLASS_WIDE_LAYER),
+        ..1.05 | 2.75.. => Some(&GLASS_WIDE_LAYER),
         _ => None,
     }
 }
