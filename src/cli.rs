@@ -7,6 +7,7 @@ mod chart;
 mod choices;
 mod completions;
 mod config;
+mod convert;
 mod depfile;
 mod device_args;
 mod devices;
@@ -23,6 +24,7 @@ mod resources;
 mod standard_output;
 mod table_args;
 mod temporary;
+mod verify;
 mod watched;
 
 use crate::error::{Complaint, Error, ExitCode, Result};
@@ -56,6 +58,10 @@ enum Command {
     Preview(preview::PreviewArgs),
     /// List the tables that engines expect, or describe one
     Presets(presets::PresetsArgs),
+    /// Tell what a table is, of whatever maker, and how wrong
+    Verify(verify::VerifyArgs),
+    /// Bake a table of whatever maker anew, in the convention of an engine
+    Convert(convert::ConvertArgs),
     /// Print code that looks a table up, in a shading language, C or Rust
     Lookup(Box<lookup::LookupArgs>),
     /// List the Vulkan devices, the preferred one first
@@ -92,6 +98,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Furnace(arguments) => furnace::run(&arguments),
         Command::Preview(arguments) => preview::run(&arguments),
         Command::Presets(arguments) => presets::run(&arguments),
+        Command::Verify(arguments) => verify::run(&arguments),
+        Command::Convert(arguments) => convert::run(&arguments),
         Command::Lookup(arguments) => lookup::run(&arguments),
         Command::Devices(arguments) => devices::run(&arguments),
         Command::Completions(arguments) => completions::print_completions(&arguments),

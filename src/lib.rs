@@ -46,9 +46,12 @@
 //! - `bake`: the plan of a bake and its execution
 //! - `lookup`: code that looks a table up, in six languages
 //! - `format`: a table as the bytes of a file
+//! - `html`: pages of HTML
 //! - `approximation`: shapes with few numbers that follow the integrals over a region
 //! - `preset`: the tables that engines expect, as flags
 //! - `scene`: the roughnesses and reflectances of the materials of a scene file
+//! - `foreign`: tables of any maker, out of their files
+//! - `verify`: what a foreign table is, and how wrong
 //! - `planner`: the cheapest approximation for a scene, and proofs that cheaper ones fail
 //! - `furnace`: the energy that a material gives back in a white furnace
 //! - `preview`: spheres lit with tables and with integrals
@@ -93,6 +96,9 @@ pub mod lookup;
 pub mod format;
 #[doc(hidden)]
 #[cfg(feature = "cli")]
+pub mod html;
+#[doc(hidden)]
+#[cfg(feature = "cli")]
 pub mod approximation;
 #[doc(hidden)]
 #[cfg(feature = "cli")]
@@ -100,6 +106,12 @@ pub mod preset;
 #[doc(hidden)]
 #[cfg(feature = "cli")]
 pub mod scene;
+#[doc(hidden)]
+#[cfg(feature = "cli")]
+pub mod foreign;
+#[doc(hidden)]
+#[cfg(feature = "cli")]
+pub mod verify;
 #[doc(hidden)]
 #[cfg(feature = "cli")]
 pub mod planner;

@@ -28,8 +28,8 @@ mod uri;
 pub use span::Span;
 
 use crate::choice::choice;
+use crate::error::clean;
 use crate::error::{Error, Result};
-use notes::clean;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 

@@ -10,7 +10,7 @@ fn axis(words: &str, size: usize) -> Axis {
 
 #[test]
 fn texel_is_the_inverse_of_value() {
-    for mapping in ["linear", "sqrt", "sqrt-complement"] {
+    for mapping in ["linear", "sqrt", "square", "sqrt-complement"] {
         for nodes in ["centres", "edges", "offset=0.25"] {
             for flip in ["", ",flip"] {
                 let axis = axis(&format!("nov,{mapping},{nodes}{flip}"), 37);
@@ -47,6 +47,7 @@ fn uv_is_the_centre_of_the_texel_that_holds_the_parameter() {
         ("nov", "sqrt"),
         ("roughness", "sqrt-complement"),
         ("alpha", "sqrt"),
+        ("alpha", "square"),
         ("exponent", "linear"),
     ] {
         for nodes in ["centres", "edges", "offset=0.25", "offset=0.25,flip", "edges,flip"] {
@@ -73,6 +74,10 @@ fn ends_are_where_the_nodes_say() {
     assert_eq!((axis("nov", 4).value(0), axis("nov", 4).value(3)), (0.125, 0.875));
     assert_eq!((axis("nov,flip", 4).value(0), axis("nov,flip", 4).value(3)), (0.875, 0.125));
     assert_eq!(axis("nov,sqrt", 4).value(0), 0.125 * 0.125);
+    assert_eq!(
+        axis("alpha,square,edges", 5).values(),
+        [0.0, 0.5, 0.5f64.sqrt(), 0.75f64.sqrt(), 1.0]
+    );
     assert_eq!(axis("nov,sqrt-complement,edges", 3).values(), [1.0, 0.75, 0.0]);
     assert_eq!(axis("nov,edges", 1).value(0), 0.0);
     assert_eq!(axis("nov", 1).value(0), 0.5);

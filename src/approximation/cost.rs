@@ -94,6 +94,7 @@ fn texel(axis: &Axis) -> usize {
         // Those of an index of refraction are no axis of an approximation.
         Mapping::Linear | Mapping::SqrtF0 | Mapping::Piecewise => 0,
         Mapping::Sqrt => ROOT,
+        Mapping::Square => 1,
         Mapping::SqrtComplement => 1 + ROOT,
     };
     let alpha = if axis.spec().parameter == Parameter::Alpha { 1 } else { 0 };

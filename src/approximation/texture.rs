@@ -66,11 +66,11 @@ impl Shape {
             return wrong("y", "an axis of roughness or alpha", format!("'{y}'"));
         }
         let is_plain = |axis: AxisSpec| {
-            let is_smooth = axis.mapping != Mapping::SqrtComplement;
+            let is_smooth = !matches!(axis.mapping, Mapping::Square | Mapping::SqrtComplement);
             axis.clamp && axis.min == 0.0 && axis.max == f64::INFINITY && is_smooth
         };
         if !is_plain(x) || !is_plain(y) {
-            let expected = "neither unclamped, min, max nor sqrt-complement";
+            let expected = "neither unclamped, min, max, square nor sqrt-complement";
             return wrong("axis", expected, format!("'{x}' and '{y}'"));
         }
         if size.iter().any(|&side| side < 2) {

@@ -81,9 +81,10 @@ pub struct TableArgs {
     /// The axis along a row, for example nov,sqrt,edges: PARAMETER nov, critical (n.v centred on
     /// the critical angle of glass seen from inside), roughness (perceptual), alpha or exponent (n
     /// = 10^(7p), Blinn-Phong's); then, where they differ from linear,centres: MAPPING linear, sqrt
-    /// (t = sqrt(p)) or sqrt-complement (t = sqrt(1-p)); NODES centres, edges (i/(N-1)) or offset=X
-    /// ((i+X)/N); flip; unclamped, so that nodes beyond an end stay there; min=X; max=X. n.v is 0
-    /// or from 1e-30 to 1, roughness 0 or from 5e-10 to 1, unclamped to 1.06 [default: nov]
+    /// (t = sqrt(p)), square (t = p^2) or sqrt-complement (t = sqrt(1-p)); NODES centres, edges
+    /// (i/(N-1)) or offset=X ((i+X)/N); flip; unclamped, so that nodes beyond an end stay there;
+    /// min=X; max=X. n.v is 0 or from 1e-30 to 1, roughness 0 or from 5e-10 to 1, unclamped to 1.06
+    /// [default: nov]
     #[arg(long, value_name = "AXIS")]
     x: Option<String>,
     /// The axis from row to row, in the same words [default: roughness, or nov where x is a

@@ -83,6 +83,21 @@ pub fn write(texels: &Texels, file: &mut dyn WriteSeek) -> Result<()> {
     }
 }
 
+/// The number of the VkFormat of texels with this storage and number of components, if they have
+/// one.
+#[cfg(feature = "cli")]
+pub fn format_of(precision: Precision, components: usize) -> Option<u32> {
+    texel(precision, components).ok().map(|texel| texel.format)
+}
+
+/// The descriptor of such texels.
+#[cfg(feature = "cli")]
+pub fn descriptor_of(precision: Precision, components: usize) -> Option<Vec<u8>> {
+    let texel = texel(precision, components).ok()?;
+    let bits: u32 = texel.bits.iter().map(|&bits| u32::from(bits)).sum();
+    Some(descriptor(&texel, bits as usize / 8))
+}
+
 /// The format of a texel with this storage and number of components.
 fn texel(precision: Precision, components: usize) -> Result<Texel> {
     let float = |format, bits: &'static [u8; 4]| Texel {

@@ -3,7 +3,6 @@
 
 mod costs;
 mod errors;
-mod html;
 mod rejected;
 mod roughness;
 mod scene;
@@ -16,7 +15,7 @@ use super::search::Outcome;
 use super::tolerance::Tolerance;
 use super::truth::Truth;
 use crate::error::Result;
-use html::{Column, and_more, escape, short, table, whole};
+use crate::html::{self, Column, and_more, escape, page_of, short, table, whole};
 
 /// Polynomials that are listed; the plan has all.
 const MOST_PARTS: usize = 40;
@@ -24,7 +23,7 @@ const MOST_PARTS: usize = 40;
 /// The page of a plan. Pictures are drawn from its outcome and the truth.
 pub fn page(report: &Report, outcome: &Outcome, truth: &Truth) -> Result<String> {
     let names: Vec<&str> = report.scenes.iter().take(3).map(|scene| &*scene.name).collect();
-    let title = escape(&format!("Plan for {}", names.join(", ")));
+    let title = format!("Plan for {}", names.join(", "));
     let parts = [
         ship(report)?,
         scene::section(report),
@@ -34,16 +33,7 @@ pub fn page(report: &Report, outcome: &Outcome, truth: &Truth) -> Result<String>
         tables::engines(report)?,
         rejected::section(report)?,
     ];
-    Ok(format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; \
-         style-src 'unsafe-inline'\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{title}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{}</style>\n\
-         </head>\n<body>\n<main>\n<h1>{title}</h1>\n{}</main>\n</body>\n</html>\n",
-        include_str!("page/page.css"),
-        parts.concat()
-    ))
+    Ok(page_of(&title, &parts.concat()))
 }
 
 /// What to ship, how right it is, and the command.

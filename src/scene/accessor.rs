@@ -1,9 +1,10 @@
 //! The least and the greatest numbers of an accessor (glTF 2.0, section 3.6.2), from its data: what
 //! the file itself states as `min` and `max` proves nothing.
 
-use super::notes::{Read, clean};
+use super::notes::Read;
 use super::span::Span;
 use super::store::Store;
+use crate::error::clean;
 
 /// Numbers of all accessors that are read, together.
 const MOST_NUMBERS: u64 = 1 << 26;

@@ -3,12 +3,13 @@
 use super::animation::Motions;
 use super::in_use::InUse;
 use super::material::{default_lobe, lobes_of};
-use super::notes::{Notes, clean};
+use super::notes::Notes;
 use super::schema::Document;
 use super::store::Store;
 use super::surface::{Reader, Surface};
 use super::textures::Textures;
 use super::{Assumptions, Lobe, MOST_MATERIALS, named};
+use crate::error::clean;
 use crate::error::{Error, Result};
 
 /// Extensions of materials that are read, or that change no reflection.

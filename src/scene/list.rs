@@ -1,9 +1,9 @@
 //! A list of materials in JSON, for scenes that are not glTF:
 //! `{"materials": [{"name": "oak", "roughness": [0.3, 0.6], "f0": 0.04}]}`.
 
-use super::notes::clean;
 use super::span::Span;
 use super::{Assumptions, Layer, Lobe, MOST_MATERIALS, named};
+use crate::error::clean;
 use crate::error::{Error, Result};
 use serde::Deserialize;
 

@@ -1,4 +1,4 @@
-//! What was assumed or could not be read, in lines; and foreign text made fit to print.
+//! What was assumed or could not be read, in lines.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -48,21 +48,4 @@ impl Notes {
         }
         lines
     }
-}
-
-/// Text of a file as a part of a line: no control characters, none that turn the direction of
-/// writing, and at most so many characters.
-pub fn clean(text: &str, most: usize) -> String {
-    let visible = |c: char| {
-        let turns = matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
-            || matches!(c, '\u{2066}'..='\u{2069}' | '\u{feff}');
-        if c.is_control() || turns { ' ' } else { c }
-    };
-    let mut characters = text.trim().chars().map(visible);
-    let mut cleaned: String = characters.by_ref().take(most).collect();
-    if characters.next().is_some() {
-        cleaned.pop();
-        cleaned.push('…');
-    }
-    cleaned
 }

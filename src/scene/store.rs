@@ -1,9 +1,10 @@
 //! The bytes of a scene: its buffers, each loaded once, and its images.
 
-use super::notes::{Read, clean};
+use super::notes::Read;
 use super::schema::{Buffer, Document};
 use super::uri;
 use crate::error::Result;
+use crate::error::clean;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 

@@ -2,10 +2,11 @@
 //! decoded at a time.
 
 use super::decode::{Image, MOST_TEXELS};
-use super::notes::{Read, clean};
+use super::notes::Read;
 use super::schema::{Document, TextureInfo};
 use super::statistics::{Joint, Statistics, bin_of};
 use super::store::Store;
+use crate::error::clean;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 

@@ -1,6 +1,7 @@
 //! URIs of buffers and images (glTF 2.0, section 2.8): data within the file, or a file beside it.
 
-use super::notes::{Read, clean};
+use super::notes::Read;
+use crate::error::clean;
 use base64::Engine;
 use base64::alphabet;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};

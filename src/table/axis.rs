@@ -60,6 +60,8 @@ pub enum Mapping {
     Linear,
     /// t = √p, so p = t²: more texels at small p.
     Sqrt,
+    /// t = p², so p = √t: more texels at large p.
+    Square,
     /// t = √(1-p), so p = 1 - t²: t = 0 at p = 1.
     SqrtComplement,
     /// Even steps of √((n-1)/(n+1)), the fourth root of F0, of an index of refraction n from min to
@@ -73,6 +75,7 @@ pub enum Mapping {
 choice!(Mapping, "axis", {
     Linear = "linear", "p = t";
     Sqrt = "sqrt", "t = sqrt(p)";
+    Square = "square", "t = p^2";
     SqrtComplement = "sqrt-complement", "t = sqrt(1-p)";
     SqrtF0 = "sqrt-f0", "even steps of sqrt((n-1)/(n+1)), of ior";
     Piecewise = "piecewise", "ior from 1/max to 1 and from 1 to max";
@@ -172,7 +175,7 @@ impl Axis {
             false => (0.0..=1.0).contains(&spec.min) && spec.max > 0.0 && spec.min <= spec.max,
         };
         let maps = match spec.mapping {
-            Mapping::Linear | Mapping::Sqrt | Mapping::SqrtComplement => true,
+            Mapping::Linear | Mapping::Sqrt | Mapping::Square | Mapping::SqrtComplement => true,
             Mapping::SqrtF0 => is_ior(spec.parameter),
             // One half ends at 1.
             Mapping::Piecewise => is_ior(spec.parameter) && spec.min == 1.0,
@@ -235,6 +238,7 @@ impl Axis {
         let p = match self.spec.mapping {
             Mapping::Linear => along(t),
             Mapping::Sqrt => along(t * t),
+            Mapping::Square => along(t.max(0.0).sqrt()),
             Mapping::SqrtComplement => along((1.0 - t) * (1.0 + t)),
             Mapping::SqrtF0 => {
                 let (z0, z1) = self.ends_of_z();
@@ -261,6 +265,7 @@ impl Axis {
         let t = match self.spec.mapping {
             Mapping::Linear => along(),
             Mapping::Sqrt => along().max(0.0).sqrt(),
+            Mapping::Square => along() * along(),
             Mapping::SqrtComplement => (1.0 - along()).max(0.0).sqrt(),
             Mapping::SqrtF0 => {
                 let (z0, z1) = self.ends_of_z();
@@ -311,6 +316,7 @@ impl Axis {
         let p = match self.spec.mapping {
             Mapping::Linear => "t".into(),
             Mapping::Sqrt => "t^2".into(),
+            Mapping::Square => "sqrt(t)".into(),
             Mapping::SqrtComplement => "1 - t^2".into(),
             Mapping::SqrtF0 => {
                 let (z0, z1) = self.ends_of_z();

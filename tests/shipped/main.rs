@@ -92,6 +92,7 @@ fn main() {
         by("shipped tables are as far from ours as others measured", as_far_as_published),
         by("the estimator repeats three.js and cmgen to half precision", repeated),
         by("cloth is Charlie with Neubelt's visibility", cloth),
+        by("verify tells what shipped tables are", told),
     ];
     libtest_mimic::run(&Arguments::from_args(), trials).exit();
 }
@@ -180,5 +181,166 @@ fn cloth(folder: &Path) -> Result<(), Failed> {
     // Neubelt's term from another is a thousand times as much.
     let mean = apart(blue).mean;
     assert!(mean < 1.5e-4, "{mean}");
+    Ok(())
+}
+
+/// What `splitsum verify` is to say of a file.
+struct Told {
+    arguments: &'static str,
+    /// The axes, and the channels.
+    x: &'static str,
+    y: &'static str,
+    channels: &'static [&'static str],
+    sampler: Option<&'static str>,
+    faults: &'static [&'static str],
+    /// Dimensions that the values do not decide.
+    undecided: &'static [&'static str],
+}
+
+const CENTRED: &str = "nov,linear,centres";
+const LATE: &str = "roughness,linear,offset=1.5,flip";
+const CMGEN: Option<&str> = Some("hammersley,n=1024,frame=cos");
+
+const TOLD: [Told; 12] = [
+    Told {
+        arguments: "three.js",
+        x: "roughness,linear,centres",
+        y: CENTRED,
+        channels: &["R: a", "G: b"],
+        sampler: Some("hammersley,n=4096,frame=sin"),
+        faults: &[],
+        undecided: &[],
+    },
+    Told {
+        arguments: "bevy.ktx2",
+        x: CENTRED,
+        y: "roughness,linear,centres",
+        channels: &["R: a", "G: b"],
+        sampler: None,
+        faults: &[],
+        undecided: &[],
+    },
+    Told {
+        arguments: "babylon.js --array _environmentBRDFBase64Texture",
+        x: CENTRED,
+        y: "roughness,linear,offset=1.5",
+        channels: &["R: b", "G: e", "B: charlie"],
+        sampler: None,
+        faults: &["8-bit", "above-one"],
+        // Half a texel is less than a step of 8 bits.
+        undecided: &["nodes of nov", "nodes of roughness"],
+    },
+    Told {
+        arguments: "babylon.js --array _openPBREnvironmentBRDFBase64Texture",
+        x: CENTRED,
+        y: "roughness,linear,centres",
+        channels: &["R: b", "G: e", "B: c*16", "A: 1"],
+        sampler: None,
+        faults: &["srgb-encoded", "8-bit"],
+        undecided: &["nodes of nov", "nodes of roughness"],
+    },
+    Told {
+        arguments: "cmgen.exr",
+        x: CENTRED,
+        y: LATE,
+        channels: &["R: a", "G: b", "B: 0"],
+        sampler: CMGEN,
+        faults: &["shifted-nodes"],
+        undecided: &[],
+    },
+    Told {
+        arguments: "cmgen.dds",
+        x: CENTRED,
+        y: LATE,
+        channels: &["R: a", "G: b", "B: 0", "A: 1"],
+        sampler: CMGEN,
+        faults: &["shifted-nodes"],
+        undecided: &[],
+    },
+    Told {
+        arguments: "cmgen.h",
+        x: CENTRED,
+        // The first row of an array is the bottom one there.
+        y: "roughness,linear,offset=1.5",
+        channels: &["R: a", "G: b"],
+        sampler: CMGEN,
+        faults: &["shifted-nodes"],
+        undecided: &[],
+    },
+    Told {
+        arguments: "cmgen.png",
+        x: CENTRED,
+        y: LATE,
+        channels: &["R: a", "G: b", "B: 0"],
+        sampler: None,
+        faults: &["8-bit", "shifted-nodes"],
+        undecided: &[],
+    },
+    Told {
+        arguments: "cmgen_32.dds",
+        x: CENTRED,
+        y: LATE,
+        channels: &["R: a", "G: b", "B: 0", "A: 1"],
+        sampler: CMGEN,
+        faults: &["shifted-nodes"],
+        undecided: &[],
+    },
+    Told {
+        arguments: "cmgen_128.exr",
+        x: CENTRED,
+        y: LATE,
+        channels: &["R: b", "G: e", "B: 0"],
+        sampler: CMGEN,
+        faults: &["shifted-nodes"],
+        undecided: &[],
+    },
+    Told {
+        arguments: "cmgen_cloth.exr",
+        x: CENTRED,
+        y: LATE,
+        channels: &["R: b", "G: e", "B: charlie"],
+        sampler: CMGEN,
+        faults: &["shifted-nodes"],
+        undecided: &[],
+    },
+    Told {
+        arguments: "ltc.js --array LTC_MAT_2",
+        x: "roughness,linear,edges",
+        y: "nov,sqrt-complement,edges",
+        channels: &["R: e", "G: b", "B: 0", "A: unknown"],
+        sampler: None,
+        faults: &["border"],
+        undecided: &[],
+    },
+];
+
+fn told(folder: &Path) -> Result<(), Failed> {
+    let report = |arguments: &str| -> Result<serde_json::Value, Failed> {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_splitsum"));
+        let words = format!("verify --json {arguments}");
+        let output = command.args(words.split_whitespace()).current_dir(folder).output()?;
+        Ok(serde_json::from_slice(&output.stdout)?)
+    };
+    for Told { arguments, x, y, channels, sampler, faults, undecided } in TOLD {
+        let report = report(arguments)?;
+        println!("{arguments}: {} s", report["seconds"]);
+        let convention = &report["convention"];
+        assert_eq!((&convention["x"], &convention["y"]), (&x.into(), &y.into()), "{arguments}");
+        assert_eq!(convention["channels"], serde_json::json!(channels), "{arguments}");
+        assert_eq!(convention["sampler"]["estimator"], serde_json::json!(sampler), "{arguments}");
+        let list = |key: &str, wanted: &dyn Fn(&serde_json::Value) -> bool, name: &str| {
+            let all = report[key].as_array().cloned().unwrap_or_default();
+            let names = all.iter().filter(|entry| wanted(entry)).map(|entry| entry[name].clone());
+            serde_json::Value::Array(names.collect())
+        };
+        assert_eq!(list("faults", &|_| true, "name"), serde_json::json!(faults), "{arguments}");
+        let open = list("decisions", &|decision| decision["decided"] == false, "dimension");
+        assert_eq!(open, serde_json::json!(undecided), "{arguments}");
+        let lobe = list("decisions", &|d| d["dimension"] == "masking", "choice");
+        assert_eq!(lobe, serde_json::json!(["height-correlated"]), "{arguments}");
+    }
+    // The matrices of linearly transformed cosines are no table of a BRDF.
+    let matrices = report("ltc.js --array LTC_MAT_1")?;
+    assert_eq!(matrices["status"], "unknown");
     Ok(())
 }

@@ -185,6 +185,7 @@ impl<'a> Coordinates<'a> {
                         counted.whole() * alpha
                     }
                     Mapping::Sqrt => counted.sqrt() * root.square(),
+                    Mapping::Square => nov.square(),
                     Mapping::SqrtComplement => (nov * -1.0 + 1.0).sqrt(),
                 };
                 let parameter = match y.spec().parameter {
@@ -194,6 +195,7 @@ impl<'a> Coordinates<'a> {
                 let q = match y.spec().mapping {
                     Mapping::Linear | Mapping::SqrtF0 | Mapping::Piecewise => parameter,
                     Mapping::Sqrt => parameter.sqrt(),
+                    Mapping::Square => parameter.square(),
                     Mapping::SqrtComplement => (parameter * -1.0 + 1.0).sqrt(),
                 };
                 let (along, across) = (texel(&x, p), texel(&y, q));

@@ -3,9 +3,9 @@
 use super::super::engines::Engine;
 use super::super::report::Report;
 use super::super::search::{Outcome, Trial, Verdict};
-use super::html::{escape, short, whole};
 use super::svg::{Frame, Svg, apart};
 use crate::error::Result;
+use crate::html::{escape, short, whole};
 use std::collections::BTreeSet;
 
 /// Errors over the tolerance below this are drawn there.

@@ -6,15 +6,12 @@ use super::super::samples::{Sample, Spread, on_grid};
 use super::super::search::Outcome;
 use super::super::tolerance::Tolerance;
 use super::super::truth::Truth;
-use super::html::{cut, escape, list, short};
 use super::svg::{Frame, Svg, apart};
 use crate::approximation::{Across, Along, Approximation, Region};
 use crate::error::Result;
-use crate::format::png::encode_rgb;
+use crate::html::{address_of, cut, escape, list, short};
 use crate::image::{Picture, diverging};
 use crate::numeric::lanes::{F32x16, Vector};
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use rayon::prelude::*;
 
 /// Pixels along either side of a map, and places along a line.
@@ -151,7 +148,7 @@ impl Shown<'_> {
         }
         let frame = Frame { left: 52.0, top: 28.0, width: 340.0, height: 340.0 };
         let mut svg = Svg::new(430.0, 412.0);
-        svg.image(frame, &address(&picture)?);
+        svg.image(frame, &address_of(&picture)?);
         let share = |roughness: f64| COORDINATES.1.at(region, roughness).clamp(0.0, 1.0);
         let [low, high] = region.roughness;
         let wished = [low, high, 0.1, 0.5, 0.2, 0.3, 0.05, 0.7, 0.02, 0.4, 0.6, 0.8];
@@ -231,18 +228,11 @@ fn scale() -> Result<String> {
     }
     let frame = Frame { left: 52.0, top: 4.0, width: 340.0, height: 14.0 };
     let mut svg = Svg::new(430.0, 52.0);
-    svg.image(frame, &address(&picture)?);
+    svg.image(frame, &address_of(&picture)?);
     svg.frame(frame);
     let ticks = [-1.0, -0.5, 0.0, 0.5, 1.0].map(|at| (0.5 + 0.5 * at, format!("{at}")));
     svg.ticks_below(frame, &ticks, false);
     let [middle, bottom] = frame.at([0.5, 0.0]);
     svg.text([middle, bottom + 32.0], "d m", "error / tolerance");
     Ok(svg.finish("Scale of colours from -1 to 1 times the tolerance"))
-}
-
-/// A picture as an address.
-fn address(picture: &Picture) -> Result<String> {
-    let Picture { width, height, rgb } = picture;
-    let png = STANDARD.encode(encode_rgb(*width, *height, rgb)?);
-    Ok(format!("data:image/png;base64,{png}"))
 }

@@ -5,9 +5,9 @@ use super::super::cost::Cost;
 use super::super::file::Rejected;
 use super::super::report::{Report, in_words, range};
 use super::super::search::PASSES;
-use super::html::{Column, and_more, escape, short, table, whole};
 use crate::approximation::Region;
 use crate::error::Result;
+use crate::html::{Column, and_more, escape, short, table, whole};
 
 /// Candidates that are listed.
 const MOST: usize = 40;

@@ -2,8 +2,8 @@
 //! each roughness.
 
 use super::super::report::{LobeText, range};
-use super::html::cut;
 use super::svg::{Frame, Svg};
+use crate::html::cut;
 use crate::scene::Layer;
 
 /// Rows that are drawn.

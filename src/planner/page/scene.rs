@@ -1,8 +1,8 @@
 //! The scene as it was read: its roughnesses as a chart, its lobes as a table, notes.
 
 use super::super::report::{LobeText, Report, SceneText, range};
-use super::html::{Column, and_more, escape, table};
 use super::roughness;
+use crate::html::{Column, and_more, escape, table};
 
 /// Lobes of a scene that are listed; the report in JSON has all.
 const MOST_LOBES: usize = 300;

@@ -1,6 +1,6 @@
 //! Drawings in SVG within a page: their colours are those of its style.
 
-use super::html::escape;
+use crate::html::escape;
 use std::fmt::Write;
 
 /// A drawing.

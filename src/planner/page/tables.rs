@@ -2,8 +2,8 @@
 
 use super::super::report::Report;
 use super::super::tolerance::Tolerance;
-use super::html::{Column, escape, short, table, whole};
 use crate::error::Result;
+use crate::html::{Column, escape, short, table, whole};
 
 /// A place in cells: n·v, roughness and F0.
 fn cells(place: [f64; 3]) -> [String; 3] {

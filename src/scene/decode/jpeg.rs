@@ -1,7 +1,8 @@
 //! JPEG: gray or colour, baseline or progressive.
 
 use super::{Header, MOST_BYTES, Rows, bytes_to_texels};
-use crate::scene::notes::{Read, clean};
+use crate::error::clean;
+use crate::scene::notes::Read;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;

@@ -2,7 +2,8 @@
 //! compressed by Zstandard. Formats for graphics processors are not read.
 
 use super::{Header, Rows, bytes_to_texels};
-use crate::scene::notes::{Read, clean};
+use crate::error::clean;
+use crate::scene::notes::Read;
 use ruzstd::decoding::StreamingDecoder;
 
 /// The largest window of Zstandard that a decoder may hold, in bytes.

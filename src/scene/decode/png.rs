@@ -2,7 +2,8 @@
 //! glTF asks.
 
 use super::{Header, MOST_BYTES, Rows, Texel, bytes_to_texels, texel_of};
-use crate::scene::notes::{Read, clean};
+use crate::error::clean;
+use crate::scene::notes::Read;
 use ::png::{BitDepth, Decoder, DecodingError, Limits, Reader, Transformations};
 use std::io::Cursor;
 

@@ -40,7 +40,7 @@ impl Axis {
         let number = words.number;
         let one = number(1.0);
         match self.spec.mapping {
-            Mapping::Linear | Mapping::Sqrt | Mapping::SqrtComplement => {
+            Mapping::Linear | Mapping::Sqrt | Mapping::Square | Mapping::SqrtComplement => {
                 let p = format!("({n} - {}) * {}", number(min), number(1.0 / (max - min)));
                 self.t_of(format!("({p})"), words)
             }
@@ -68,6 +68,7 @@ impl Axis {
         match self.spec.mapping {
             Mapping::Linear => p,
             Mapping::Sqrt => (words.sqrt)(&(words.max)(&p, &zero)),
+            Mapping::Square => format!("({p}) * ({p})"),
             Mapping::SqrtComplement => {
                 let complement = format!("{} - {p}", (words.number)(1.0));
                 (words.sqrt)(&(words.max)(&complement, &zero))

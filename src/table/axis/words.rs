@@ -10,10 +10,10 @@ use std::str::FromStr;
 /// The words of an axis, for `--help` and errors.
 pub const AXIS_WORDS: &str = "PARAMETER[,MAPPING][,NODES][,flip][,unclamped][,min=X][,max=X] with \
                               PARAMETER nov, critical, roughness, alpha, exponent or (along z) f0 \
-                              or ior; MAPPING linear, sqrt (t = sqrt(p)), sqrt-complement (t = \
-                              sqrt(1-p)) or of ior sqrt-f0 or piecewise; NODES centres, edges or \
-                              offset=X with X in [-2, 2]; min=X with X in [0, 1]; max=X above 0, \
-                              from min up; of ior min and max from 1 up";
+                              or ior; MAPPING linear, sqrt (t = sqrt(p)), square (t = p^2), \
+                              sqrt-complement (t = sqrt(1-p)) or of ior sqrt-f0 or piecewise; \
+                              NODES centres, edges or offset=X with X in [-2, 2]; min=X with X in \
+                              [0, 1]; max=X above 0, from min up; of ior min and max from 1 up";
 
 impl FromStr for AxisSpec {
     type Err = Error;

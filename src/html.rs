@@ -1,4 +1,30 @@
-//! Words, numbers and tables in HTML.
+//! Pages of HTML: one file each, without scripts, with nothing from elsewhere; words, numbers,
+//! tables and pictures.
+
+use crate::error::Result;
+use crate::format::png::encode_rgb;
+use crate::image::Picture;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+
+/// A page with this title, which is escaped, and this body, which is HTML.
+pub fn page_of(title: &str, body: &str) -> String {
+    let (title, style) = (escape(title), include_str!("html/page.css"));
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; \
+         style-src 'unsafe-inline'\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{title}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{style}</style>\n\
+         </head>\n<body>\n<main>\n<h1>{title}</h1>\n{body}</main>\n</body>\n</html>\n"
+    )
+}
+
+/// A picture as the address of an image.
+pub fn address_of(picture: &Picture) -> Result<String> {
+    let png = STANDARD.encode(encode_rgb(picture.width, picture.height, &picture.rgb)?);
+    Ok(format!("data:image/png;base64,{png}"))
+}
 
 /// Text as HTML, also between double or single quotes.
 pub fn escape(text: &str) -> String {

@@ -1,0 +1,137 @@
+//! A table against what it is to be: an engine's convention, or that of its own metadata.
+
+use super::decision::Decision;
+use super::decoding::Decoding;
+use super::errors::Convention;
+use super::fault::{Fault, Kind};
+use super::layout::Layout;
+use super::meaning::Meaning;
+use crate::foreign::Foreign;
+use crate::integrate::Integrand;
+use crate::request::Request;
+use crate::table::axis::{AxisSpec, Parameter};
+use crate::table::precision::Precision;
+
+/// What a table is to be.
+#[derive(Clone, Debug)]
+pub struct Expected {
+    /// Whose convention it is.
+    pub whose: String,
+    /// A table in it, of the same size.
+    pub request: Request,
+}
+
+impl Expected {
+    /// How codes become values.
+    pub fn decoding(&self) -> Decoding {
+        match self.request.precision() {
+            Precision::Srgb8 => Decoding::Srgb,
+            Precision::Rgbd8 => Decoding::Rgbd,
+            _ => Decoding::Linear,
+        }
+    }
+
+    /// The axes.
+    pub fn layout(&self) -> Layout {
+        let layout = self.request.layout();
+        Layout { x: layout.x.spec(), y: layout.y.spec() }
+    }
+
+    /// The meanings of a slice's channels.
+    pub fn meanings(&self, slice: usize, components: usize, tolerance: f64) -> Vec<Meaning> {
+        let packings = self.request.packings();
+        let packing = &packings[slice.min(packings.len() - 1)];
+        Meaning::of_packing(packing, tolerance, components)
+    }
+
+    /// Where the data decide otherwise.
+    pub fn faults(
+        &self,
+        table: &Foreign,
+        found: &Convention,
+        decisions: &[Decision],
+    ) -> Vec<Fault> {
+        let decided = |dimension: &str| {
+            decisions.iter().any(|decision| decision.dimension == dimension && decision.decided)
+        };
+        let (theirs, wanted) = (found.layout, self.layout());
+        let mut faults = Vec::new();
+        let mut differ = |kind, what: &str, got: String, wanted: String| {
+            let text = format!("{what} {got}, {} {wanted}", self.whose);
+            faults.push(Fault::new(kind, text));
+        };
+        if theirs.is_transposed() != wanted.is_transposed() && decided("axes") {
+            let order =
+                |layout: Layout| format!("x = {}, y = {}", layout.x.parameter, layout.y.parameter);
+            differ(Kind::Transposed, "axes are", order(theirs), order(wanted));
+        }
+        let axes = [
+            (theirs.nov(), wanted.nov(), "nov"),
+            (theirs.roughness(), wanted.roughness(), "roughness"),
+        ];
+        for (theirs, wanted, name) in axes {
+            // Alpha by its root is roughness.
+            let same_map = (theirs.parameter, theirs.mapping) == (wanted.parameter, wanted.mapping);
+            if !same_map && is_plain(wanted) && decided(of("mapping", name)) {
+                differ(Kind::WrongMapping, "an axis is", theirs.to_string(), wanted.to_string());
+            } else if theirs.flip != wanted.flip && decided(of("direction", name)) {
+                differ(Kind::Flipped, "an axis is", theirs.to_string(), wanted.to_string());
+            } else if theirs.nodes != wanted.nodes && decided(of("nodes", name)) {
+                differ(Kind::ShiftedNodes, "an axis is", theirs.to_string(), wanted.to_string());
+            }
+        }
+        let lobes = [found.meanings, &self.meanings(0, table.components(), 0.0)].map(main_lobe);
+        if let [Some(theirs), Some(wanted)] = lobes {
+            if theirs.ndf != wanted.ndf && decided("distribution") {
+                let (got, wanted) = (theirs.ndf.to_string(), wanted.ndf.to_string());
+                differ(Kind::WrongDistribution, "the distribution is", got, wanted);
+            } else if theirs.masking != wanted.masking && decided("masking") {
+                let (got, wanted) = (theirs.masking.to_string(), wanted.masking.to_string());
+                differ(Kind::WrongMasking, "masking is", got, wanted);
+            }
+        }
+        let wanted = self.meanings(0, table.components(), 0.0);
+        let own = self.request.packing().main().integrand();
+        for (place, (theirs, wanted)) in found.meanings.iter().zip(&wanted).enumerate() {
+            let (got, wanted) = (theirs.term(own), wanted.term(own));
+            if got != wanted && theirs.varies() && decided("channels") {
+                let what = format!("channel {} is", table.names[place]);
+                let word = |term: Option<String>| term.unwrap_or_else(|| "another".into());
+                differ(Kind::WrongChannels, &what, word(got), word(wanted));
+            }
+        }
+        if found.decoding != self.decoding() && decided("encoding") {
+            let (got, wanted) = (found.decoding.to_string(), self.decoding().to_string());
+            differ(Kind::WrongCurve, "values are", got, wanted);
+        }
+        faults
+    }
+}
+
+/// The dimension of an axis.
+fn of(what: &str, axis: &str) -> &'static str {
+    match (what, axis) {
+        ("mapping", "nov") => "mapping of nov",
+        ("mapping", _) => "mapping of roughness",
+        ("direction", "nov") => "direction of nov",
+        ("direction", _) => "direction of roughness",
+        (_, "nov") => "nodes of nov",
+        _ => "nodes of roughness",
+    }
+}
+
+/// Whether an axis is among those that are sought.
+fn is_plain(spec: AxisSpec) -> bool {
+    matches!(spec.parameter, Parameter::Nov | Parameter::Roughness | Parameter::Alpha)
+}
+
+/// The lobe of the first specular channel.
+fn main_lobe(meanings: &[Meaning]) -> Option<crate::brdf::Microfacet> {
+    meanings.iter().find_map(|meaning| match meaning {
+        Meaning::Number { truth, .. } => match truth.lut.integrand() {
+            Integrand::Specular(lobe, _) => Some(lobe),
+            Integrand::Glass(_) | Integrand::Diffuse(_) => None,
+        },
+        _ => None,
+    })
+}
