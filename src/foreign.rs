@@ -41,8 +41,6 @@ pub struct Foreign {
     pub container: &'static str,
     /// What the file says of the curve of its codes.
     pub curve: Option<Curve>,
-    /// What the file says of its rows: whether the first is the bottom one.
-    pub bottom_first: Option<bool>,
     /// What else is to be known of the file.
     pub notes: Vec<String>,
     /// What is wrong with the container.
@@ -120,7 +118,11 @@ impl Foreign {
     /// the container, and what is none is text with numbers.
     pub fn read(name: &str, bytes: &[u8], reading: &Reading) -> Result<Self> {
         let read = match reading {
-            Reading { raw: Some(layout), array: None } => raw::read(bytes, layout),
+            // A layout is that of texels alone, or of numbers in text.
+            Reading { raw: Some(layout), array: None } => match raw::read(bytes, layout) {
+                Err(_) if std::str::from_utf8(bytes).is_ok() => source::read(bytes, reading),
+                read => read,
+            },
             _ => by_first_bytes(bytes).unwrap_or_else(|| source::read(bytes, reading)),
         };
         read.map_err(|Refusal { expected, got }| {
@@ -132,12 +134,6 @@ impl Foreign {
     /// Components of a texel.
     pub fn components(&self) -> usize {
         self.names.len()
-    }
-
-    /// A component of a texel.
-    pub fn value(&self, slice: usize, (i, j): (usize, usize), component: usize) -> f32 {
-        let [columns, rows, _] = self.size;
-        self.values[((slice * rows + j) * columns + i) * self.names.len() + component]
     }
 
     /// A table of a container without more to say.
@@ -155,7 +151,6 @@ impl Foreign {
             storage,
             container,
             curve: None,
-            bottom_first: None,
             notes: Vec::new(),
             faults: Vec::new(),
             own: Vec::new(),

@@ -160,7 +160,6 @@ impl Made {
             storage,
             container: "made",
             curve: None,
-            bottom_first: None,
             notes: vec![],
             faults: vec![],
             own: vec![],
@@ -233,7 +232,7 @@ impl Score {
             println!("unknown ({:?}): {made:?}", report.distance);
             return;
         }
-        for Decision { dimension, choice, decided, others, ratio } in &report.decisions {
+        for Decision { dimension, choice, decided, others, ratio, .. } in &report.decisions {
             let Some(right) = made.right(dimension) else { continue };
             match (*choice == right, decided) {
                 (true, true) => self.right += 1,
@@ -270,7 +269,6 @@ fn of_values(size: [usize; 2], components: usize, values: Vec<f32>) -> Foreign {
         storage: Precision::F32,
         container: "made",
         curve: None,
-        bottom_first: None,
         notes: vec![],
         faults: vec![],
         own: vec![],

@@ -185,3 +185,100 @@ fn the_catalogue_names_flags_that_bake() {
 fn output(flags: &str) -> &'static str {
     if flags.contains("--side") { "-o t.exr" } else { "-o t.ktx2" }
 }
+
+#[test]
+fn odd_files_are_judged_without_a_panic() {
+    let folder = tempdir().unwrap();
+    let raw = |name: &str, texel: &dyn Fn(usize) -> [u8; 4], count: usize| {
+        let bytes: Vec<u8> = (0..count).flat_map(texel).collect();
+        fs::write(folder.path().join(name), bytes).unwrap();
+    };
+    // Alpha divides in the second slice alone; alpha is a channel; alpha is 0 in places; one row.
+    raw("slices", &|k| [k as u8, (k / 3) as u8, 7, if k < 256 { 255 } else { 128 }], 512);
+    raw("alpha", &|k| [0, 0, (k % 16 * 16) as u8, (k / 16 * 15) as u8], 256);
+    raw("holes", &|k| [k as u8, (255 - k) as u8, 0, if k % 3 == 0 { 0 } else { 128 }], 256);
+    raw("row", &|k| [k as u8, 3, 4, 255], 64);
+    for (file, size) in
+        [("slices", "16x16x2"), ("alpha", "16x16"), ("holes", "16x16"), ("row", "64x1")]
+    {
+        let (json, code, _) = verified(&folder, &format!("{file} --raw {size},rgba8"));
+        assert_eq!(code, 7, "{file}: {json:#}");
+    }
+    // A table of ours with an alpha that is cut out in places.
+    ok(&folder, "bake -q --size 16 --channels a,b,0,1 --precision unorm8 --format raw -o t.raw");
+    let mut bytes = fs::read(folder.path().join("t.raw")).unwrap();
+    bytes.chunks_exact_mut(4).step_by(3).for_each(|texel| texel[3] = 0);
+    bytes[7] = 128;
+    fs::write(folder.path().join("t.raw"), bytes).unwrap();
+    let (json, ..) = verified(&folder, "t.raw --raw 16x16,rgba8");
+    assert_eq!(json["status"], "known", "{json:#}");
+}
+
+#[test]
+fn metadata_neither_take_hours_nor_the_terminal() {
+    let folder = tempdir().unwrap();
+    let text = "// splitsum 0.1.0: splitsum bake --x \u{1b}[31mRED\u{7}\nT = [1, 2, 3, 4];\n";
+    fs::write(folder.path().join("t.js"), text).unwrap();
+    let output = run(&folder, "verify t.js");
+    assert!(!output.stdout.contains(&0x1b) && !output.stderr.contains(&0x1b));
+    assert_eq!(output.status.code(), Some(7));
+    let numbers = vec!["0.5"; 128 * 128].join(", ");
+    let command = "--channels e --size 128 --precision f32 --estimator \
+                   hammersley,n=1048576,frame=cos --format js";
+    let text = format!("// splitsum 0.1.0: splitsum bake {command}\nT = [{numbers}];\n");
+    fs::write(folder.path().join("long.js"), text).unwrap();
+    let start = std::time::Instant::now();
+    let (json, ..) = verified(&folder, "long.js");
+    assert!(json["file"]["notes"].to_string().contains("not baked again"), "{json:#}");
+    // The bake itself would take a minute and more.
+    assert!(start.elapsed().as_secs() < 20);
+}
+
+#[test]
+fn axes_that_are_the_same_by_other_words_are_no_fault() {
+    let folder = tempdir().unwrap();
+    for flags in [
+        "--size 24x10 --y alpha,sqrt -o t.h",
+        "--size 16 --y roughness,square -o t.ktx2",
+        "--size 16 --y roughness,offset=0.4 -o t.exr",
+        "--model blinn-phong --y exponent --size 16 -o e.exr",
+        "--lut glass --side inside --x critical --size 16 -o c.exr",
+    ] {
+        ok(&folder, &format!("bake -q {flags}"));
+        let file = flags.split(' ').next_back().unwrap();
+        let file = if file == "t.h" { "t.h --raw 24x10,rg16f" } else { file };
+        let (json, code, _) = verified(&folder, file);
+        assert_eq!(code, 0, "{flags}: {json:#}");
+    }
+}
+
+#[test]
+fn a_channel_that_an_engine_misses_is_a_fault() {
+    let folder = tempdir().unwrap();
+    for channels in ["b,e,0", "b,e", "b,e,nov"] {
+        ok(&folder, &format!("bake -q --channels {channels} --size 16 --format npy -o t.npy"));
+        let (_, code, faults) = verified(&folder, "t.npy --as filament");
+        assert_eq!((code, faults), (7, vec!["wrong-channels".to_owned()]), "{channels}");
+    }
+    // Another masking is one fault, not three.
+    ok(&folder, "bake -q --masking separable --size 16 --format npy -o t.npy");
+    let faults = verified(&folder, "t.npy --as bevy").2;
+    assert_eq!(faults, ["wrong-masking"]);
+}
+
+#[test]
+fn arrays_of_source_code_are_found_behind_their_lengths_and_types() {
+    let folder = tempdir().unwrap();
+    ok(&folder, "bake -q --size 8 --precision f32 --format txt -o t.txt");
+    let numbers = fs::read_to_string(folder.path().join("t.txt")).unwrap();
+    for (text, arguments) in [
+        (format!("const float DATA[1][8][8][2] = {{{numbers}}};"), "--array DATA"),
+        (format!("static DATA: &'static [f32] = &[{numbers}];"), ""),
+        (format!("DATA = np.array([{numbers}], dtype=np.float32).reshape(8, 8, 2)"), ""),
+        (numbers.clone(), "--raw 8x8,rg32f"),
+    ] {
+        fs::write(folder.path().join("source"), &text).unwrap();
+        let (json, code, _) = verified(&folder, &format!("source {arguments}"));
+        assert_eq!((code, &json["status"]), (0, &"known".into()), "{arguments}: {json:#}");
+    }
+}

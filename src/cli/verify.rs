@@ -78,15 +78,18 @@ pub fn run(arguments: &VerifyArgs) -> Result<()> {
     }
     let (table, bytes) = read_table(file, read)?;
     let command = own::command(&bytes, &table);
-    let expected = match (preset, &command) {
+    let own = command.as_deref().map(|command| own::Own::new(command, &table, &bytes, read));
+    let own = own.transpose()?;
+    let expected = match (preset, &own) {
         (Some(preset), _) => Some(of_preset(preset, &table)?),
-        (None, Some(command)) => own::expected(command, &table)?,
+        (None, Some(own)) => own.expected.clone(),
         (None, None) => None,
     };
     let demands = Demands { largest_error: *max_error, expected };
     let mut report = verify(file, &table, &demands)?;
-    if let Some(command) = &command {
-        report.faults.extend(own::faults(command, &bytes, &table)?);
+    if let Some(own) = own {
+        report.faults.extend(own.fault);
+        report.file.notes.extend(own.note);
     }
     if let Some(html) = html {
         output::write(html, page(&report)?.as_bytes())?;
@@ -104,22 +107,30 @@ pub fn run(arguments: &VerifyArgs) -> Result<()> {
 
 /// The table of a file, and its bytes.
 pub fn read_table(file: &str, read: &ReadArgs) -> Result<(Foreign, Vec<u8>)> {
-    let raw = read.raw.as_deref().map(str::parse::<RawLayout>).transpose()?;
     let bytes = bytes_of(file)?;
-    let table = Foreign::read(file, &bytes, &Reading { raw, array: read.array.clone() })?;
+    let table = Foreign::read(file, &bytes, &read.reading()?)?;
     Ok((table, bytes))
+}
+
+impl ReadArgs {
+    /// The flags as a reader takes them.
+    pub fn reading(&self) -> Result<Reading> {
+        let raw = self.raw.as_deref().map(str::parse::<RawLayout>).transpose()?;
+        Ok(Reading { raw, array: self.array.clone() })
+    }
 }
 
 /// The table of a preset in the size of another.
 fn of_preset(preset: &str, table: &Foreign) -> Result<Expected> {
     let [columns, rows, _] = table.size;
     let job = TableArgs::of_flags(&format!("--preset {preset} --size {columns}x{rows}"))?.job()?;
-    Ok(Expected { whose: preset.to_owned(), request: job.request })
+    Ok(Expected { whose: preset.to_owned(), request: job.request, certain: false })
 }
 
 /// Why a table is refused, in a line.
 fn refusal(report: &Report) -> Error {
     let mut names: Vec<&str> = report.faults.iter().map(|fault| fault.name.word()).collect();
+    names.sort_unstable();
     names.dedup();
     let why = match report.status {
         Status::Unknown => "no convention that is known fits".into(),

@@ -105,7 +105,9 @@ fn unpacked(mut data: &[u8], length: usize) -> Read<Vec<u8>> {
 fn wrong_descriptor(bytes: &[u8], format: u32, texel: Texel) -> Read<Option<String>> {
     let (at, length) = (word32(bytes, 48)? as usize, word32(bytes, 52)? as usize);
     let found = part(bytes, at, length)?;
-    let Some(right) = descriptor_of(texel.storage, texel.components) else { return Ok(None) };
+    // Blue first has other samples.
+    let right = descriptor_of(texel.storage, texel.components).filter(|_| !texel.swapped);
+    let Some(right) = right else { return Ok(None) };
     // Black and white points and primaries may differ; the samples may not.
     let samples = |descriptor: &[u8]| descriptor.get(28..).map(<[u8]>::to_vec);
     let curve = |descriptor: &[u8]| descriptor.get(14).copied();
@@ -133,8 +135,8 @@ fn key_values(bytes: &[u8], table: &mut Foreign) -> Read<()> {
         let value = value.trim_end_matches('\0');
         match key {
             b"KTXorientation" => match value.as_bytes() {
-                [b'r', b'd', ..] => table.bottom_first = Some(false),
-                [b'r', b'u', ..] => table.bottom_first = Some(true),
+                [b'r', b'd', ..] => (),
+                [b'r', b'u', ..] => table.notes.push("its first row is the bottom one".into()),
                 _ => table.notes.push(format!("orientation '{}'", clean(value, 20))),
             },
             b"KTXwriter" => table.notes.push(format!("written by {}", clean(value, 60))),

@@ -20,6 +20,11 @@ pub const RAW_WORDS: &str = "COLUMNSxROWS[xSLICES],COMPONENTS with COMPONENTS r,
                              and 8, 16, 16f or 32f behind it, or rgb10a2; as in 64x64,rg16f";
 
 impl RawLayout {
+    /// The storage of a number.
+    pub fn storage(&self) -> Precision {
+        self.texel.storage
+    }
+
     /// Components of a texel.
     pub fn components(&self) -> usize {
         self.texel.components

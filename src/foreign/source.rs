@@ -39,7 +39,7 @@ fn of_base64(text: &str, layout: Option<&RawLayout>) -> Read<Foreign> {
 }
 
 fn of_numbers(numbers: Numbers, layout: Option<&RawLayout>) -> Read<Foreign> {
-    let (values, storage) = values(&numbers);
+    let (values, storage) = values(&numbers, layout.map(RawLayout::storage));
     let (size, components, guess) = match layout {
         Some(layout) => (layout.size, layout.components(), None),
         None => {
@@ -57,29 +57,36 @@ fn of_numbers(numbers: Numbers, layout: Option<&RawLayout>) -> Read<Foreign> {
         return refuse(expected, format!("an array of {}", values.len()));
     }
     let mut table = Foreign::new("source code", size, components, storage, values);
-    if let Some(name) = &numbers.name {
+    if let Some(name) = numbers.name {
         table.notes.push(format!("array {}", clean(name, 60)));
     }
     table.notes.extend(guess);
     Ok(table)
 }
 
-/// The numbers as values, and their storage: decimals, halves by their bits, floats by their bits,
-/// or codes of 8 or 16 bits.
-fn values(numbers: &Numbers) -> (Vec<f32>, Precision) {
+/// The numbers as values, and their storage: decimals, or whole numbers as the layout says, else
+/// by the largest: codes of 8 bits, bits of halves, codes of 16 bits, bits of floats.
+fn values(numbers: &Numbers, wanted: Option<Precision>) -> (Vec<f32>, Precision) {
     let Numbers { bits, decimal, .. } = numbers;
+    if *decimal {
+        return (bits.iter().map(|&bits| f32::from_bits(bits)).collect(), Precision::F32);
+    }
     let largest = bits.iter().copied().max().unwrap_or(0);
-    let each = |value: fn(u32) -> f32| bits.iter().map(|&bits| value(bits)).collect();
-    if *decimal || largest > 0xffff {
-        return (each(f32::from_bits), Precision::F32);
-    }
-    // Halves up to the largest finite one; a table whose codes of 16 bits end below it has no value
-    // above 0.48, and each of its values is the bits of a half below 65,504.
-    match largest {
-        0..=0xff => (each(|code| code as f32 / 255.0), Precision::Unorm8),
-        0x100..=0x7bff => (each(|bits| half::value(bits as u16) as f32), Precision::F16),
-        _ => (each(|code| code as f32 / 65535.0), Precision::Unorm16),
-    }
+    let storage = wanted.unwrap_or(match largest {
+        0..=0xff => Precision::Unorm8,
+        // Halves up to the largest finite one; a table whose codes of 16 bits end below it has no
+        // value above 0.48.
+        0x100..=0x7bff => Precision::F16,
+        0x7c00..=0xffff => Precision::Unorm16,
+        _ => Precision::F32,
+    });
+    let value = |&bits: &u32| match storage {
+        Precision::F16 => half::value(bits as u16) as f32,
+        Precision::F32 => f32::from_bits(bits),
+        Precision::Unorm16 => bits as f32 / 65535.0,
+        _ => bits as f32 / 255.0,
+    };
+    (bits.iter().map(value).collect(), storage)
 }
 
 /// The size and the components of so many numbers: of all squares and cubes the one whose

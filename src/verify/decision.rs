@@ -23,6 +23,8 @@ pub struct Decision {
     pub ratio: f64,
     /// Whether the data decide it.
     pub decided: bool,
+    /// Whether a sampler proves it, whatever the ratio.
+    pub proved: bool,
     /// The other choices that fit as well, the nearest first.
     pub others: Vec<String>,
 }
@@ -145,5 +147,5 @@ fn decision(
     let next = others.first().map_or(f64::INFINITY, |&(_, other)| ratio(other));
     let tied = others.into_iter().filter(|&(_, other)| ratio(other) < DECIDED);
     let others = tied.map(|(other, _)| other).collect();
-    Decision { dimension, choice, ratio: next, decided: next >= DECIDED, others }
+    Decision { dimension, choice, ratio: next, decided: next >= DECIDED, proved: false, others }
 }

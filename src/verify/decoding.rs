@@ -1,5 +1,6 @@
 //! From the codes of a file to values: what a curve or a divisor of the texel does.
 
+use super::channel::Texels;
 use crate::choice::choice;
 use crate::foreign::{Curve, Foreign};
 use crate::table::precision::Precision;
@@ -29,15 +30,16 @@ choice!(Decoding, "encoding", {
 });
 
 impl Decoding {
-    /// Those that a table may have: floats are linear, and a divisor is the fourth component.
-    pub fn of(table: &Foreign) -> Vec<Decoding> {
+    /// Those that a slice may have: floats are linear, and a divisor is the fourth component.
+    pub fn of(table: &Foreign, slice: usize) -> Vec<Decoding> {
         if matches!(table.storage, Precision::F16 | Precision::F32) {
             return vec![Decoding::Linear];
         }
         let mut list = vec![Decoding::Linear, Decoding::Srgb, Decoding::Gamma];
         // An alpha that is 1 everywhere divides nothing.
-        let divides = |texel: &[f32]| texel.last().is_some_and(|&alpha| alpha > 0.0 && alpha < 1.0);
-        if table.components() == 4 && table.values.chunks_exact(4).any(divides) {
+        let texels = Texels::new(table, slice);
+        let divides = |texel: usize| texels[texel][3] > 0.0 && texels[texel][3] < 1.0;
+        if table.components() == 4 && (0..texels.len()).any(divides) {
             list.extend([Decoding::Rgbd, Decoding::RgbdSrgb]);
         }
         list

@@ -1,13 +1,14 @@
 //! How far the values of a table are from the truth: those that are stored, and those that a
 //! bilinear lookup reads between them.
 
-use super::channel::texels;
+use super::channel::Texels;
 use super::decoding::Decoding;
 use super::layout::{Layout, place};
 use super::meaning::Meaning;
+use super::sample::spread;
 use crate::error::Result;
 use crate::foreign::Foreign;
-use crate::table::axis::{Axis, Parameter};
+use crate::table::axis::{Axis, AxisSpec, Parameter};
 use crate::units::{alpha_of, roughness_of};
 use serde::Serialize;
 
@@ -20,6 +21,10 @@ pub const PRACTICAL: (f64, f64) = (1e-3, 0.045);
 
 /// Places along an axis at which lookups are searched at the most.
 const PLACES: usize = 260;
+
+/// Texels along each axis that are measured at the most; of a larger table as many, evenly spread,
+/// both ends among them.
+pub const SIDE: usize = 512;
 
 /// The errors of a channel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -34,6 +39,8 @@ pub struct Errors {
     pub bias: f64,
     /// The place of the largest.
     pub worst: Place,
+    /// Values that are NaN or infinite, of so many.
+    pub not_finite: (usize, usize),
 }
 
 /// A place of a table.
@@ -62,8 +69,11 @@ pub struct Convention<'a> {
     pub meanings: &'a [Meaning],
 }
 
-/// The differences of a channel from the truth at every texel, row by row.
+/// The differences of a channel from the truth at the texels that are measured, row by row.
+#[derive(Clone)]
 pub struct Differences {
+    /// Columns and rows of them.
+    pub size: [usize; 2],
     /// Value less truth.
     pub values: Vec<f64>,
     /// The errors.
@@ -79,6 +89,13 @@ impl Convention<'_> {
     /// The truth of a channel at these places along x and y, row by row; none where its meaning is
     /// not known.
     fn truth(&self, channel: usize, xs: &[f64], ys: &[f64]) -> Option<Vec<f64>> {
+        // Of other axes the places are no n·v and no α.
+        let known = |spec: AxisSpec| {
+            matches!(spec.parameter, Parameter::Nov | Parameter::Roughness | Parameter::Alpha)
+        };
+        if !known(self.layout.x) || !known(self.layout.y) {
+            return None;
+        }
         let meaning = self.meanings.get(channel)?.clone().within(TOLERANCE);
         let transposed = self.layout.is_transposed();
         let (novs, widths) = if transposed { (ys, xs) } else { (xs, ys) };
@@ -99,22 +116,28 @@ impl Convention<'_> {
         channel: usize,
     ) -> Result<Option<Differences>> {
         let (x, y) = self.axes(table)?;
-        let places = |axis: &Axis| -> Vec<f64> {
-            axis.values().iter().map(|&value| place(axis.spec().parameter, value)).collect()
+        let (across, along) = (spread(x.size(), SIDE), spread(y.size(), SIDE));
+        let places = |axis: &Axis, texels: &[usize]| -> Vec<f64> {
+            let value = |&texel: &usize| place(axis.spec().parameter, axis.value(texel));
+            texels.iter().map(value).collect()
         };
-        let (xs, ys) = (places(&x), places(&y));
+        let (xs, ys) = (places(&x, &across), places(&y, &along));
         let Some(truth) = self.truth(channel, &xs, &ys) else { return Ok(None) };
-        let texels = texels(table, slice);
-        let values: Vec<f64> =
-            texels.iter().map(|texel| self.decoding.value(texel, channel)).collect();
+        let (texels, columns) = (Texels::new(table, slice), table.size[0]);
+        let value =
+            |(j, i): (&usize, &usize)| self.decoding.value(&texels[j * columns + i], channel);
+        let pairs = along.iter().flat_map(|j| across.iter().map(move |i| (j, i)));
+        let values: Vec<f64> = pairs.map(value).collect();
         let differences: Vec<f64> =
             values.iter().zip(&truth).map(|(value, truth)| value - truth).collect();
         let at = |index: usize| {
             let (i, j) = (index % xs.len(), index / xs.len());
-            self.place((i as f64, j as f64), (xs[i], ys[j]), values[index], truth[index])
+            let texel = (across[i] as f64, along[j] as f64);
+            self.place(texel, (xs[i], ys[j]), values[index], truth[index])
         };
         let errors = errors(&differences, at);
-        Ok(Some(Differences { values: differences, errors }))
+        let size = [across.len(), along.len()];
+        Ok(Some(Differences { size, values: differences, errors }))
     }
 
     /// The errors of a bilinear lookup of a channel over the practical domain: at texels, between
@@ -128,11 +151,11 @@ impl Convention<'_> {
         };
         let (xs, ys) = (places(&x, &across), places(&y, &along));
         let Some(truth) = self.truth(channel, &xs, &ys) else { return Ok(None) };
-        let texels = texels(table, slice);
+        let texels = Texels::new(table, slice);
         let read = |index: usize| {
             let (u, v) = (across[index % xs.len()], along[index / xs.len()]);
             let columns = table.size[0];
-            let at = |i: usize, j: usize| self.decoding.value(texels[j * columns + i], channel);
+            let at = |i: usize, j: usize| self.decoding.value(&texels[j * columns + i], channel);
             bilinear((u, table.size[0]), (v, table.size[1]), at)
         };
         let values: Vec<f64> = (0..truth.len()).map(read).collect();
@@ -212,5 +235,6 @@ fn errors(differences: &[f64], place: impl Fn(usize) -> Place) -> Errors {
         largest,
         bias: finite.sum::<f64>() / count,
         worst: place(worst),
+        not_finite: (differences.len() - amounts.len(), differences.len()),
     }
 }

@@ -9,7 +9,7 @@ use super::meaning::Meaning;
 use crate::foreign::Foreign;
 use crate::integrate::Integrand;
 use crate::request::Request;
-use crate::table::axis::{AxisSpec, Parameter};
+use crate::table::axis::{AxisSpec, Mapping, Parameter};
 use crate::table::precision::Precision;
 
 /// What a table is to be.
@@ -19,6 +19,8 @@ pub struct Expected {
     pub whose: String,
     /// A table in it, of the same size.
     pub request: Request,
+    /// Whether the file is known to be that table, byte for byte.
+    pub certain: bool,
 }
 
 impl Expected {
@@ -48,7 +50,7 @@ impl Expected {
     pub fn faults(
         &self,
         table: &Foreign,
-        found: &Convention,
+        (found, own): (&Convention, Integrand),
         decisions: &[Decision],
     ) -> Vec<Fault> {
         let decided = |dimension: &str| {
@@ -70,7 +72,7 @@ impl Expected {
             (theirs.roughness(), wanted.roughness(), "roughness"),
         ];
         for (theirs, wanted, name) in axes {
-            // Alpha by its root is roughness.
+            let (theirs, wanted) = (plain(theirs), plain(wanted));
             let same_map = (theirs.parameter, theirs.mapping) == (wanted.parameter, wanted.mapping);
             if !same_map && is_plain(wanted) && decided(of("mapping", name)) {
                 differ(Kind::WrongMapping, "an axis is", theirs.to_string(), wanted.to_string());
@@ -90,14 +92,18 @@ impl Expected {
                 differ(Kind::WrongMasking, "masking is", got, wanted);
             }
         }
-        let wanted = self.meanings(0, table.components(), 0.0);
-        let own = self.request.packing().main().integrand();
-        for (place, (theirs, wanted)) in found.meanings.iter().zip(&wanted).enumerate() {
-            let (got, wanted) = (theirs.term(own), wanted.term(own));
-            if got != wanted && theirs.varies() && decided("channels") {
-                let what = format!("channel {} is", table.names[place]);
-                let word = |term: Option<String>| term.unwrap_or_else(|| "another".into());
-                differ(Kind::WrongChannels, &what, word(got), word(wanted));
+        let main = self.request.packing().main().integrand();
+        let count = table.components().max(self.request.layout().channels.len());
+        for (place, wanted) in self.meanings(0, count, 0.0).iter().enumerate() {
+            let theirs = found.meanings.get(place).unwrap_or(&Meaning::Unknown);
+            // Whose lobe it is has faults of its own.
+            let (got, word) = (theirs.term(own), wanted.term(main));
+            let varies = theirs.varies() || wanted.varies();
+            if varies && (got.is_none() || got != word) && decided("channels") {
+                let name = table.names.get(place).map_or("that is missing", |name| name);
+                let known = |term: Option<String>| term.unwrap_or_else(|| "unknown".into());
+                let what = format!("channel {name} is");
+                differ(Kind::WrongChannels, &what, known(got), known(word));
             }
         }
         if found.decoding != self.decoding() && decided("encoding") {
@@ -118,6 +124,16 @@ fn of(what: &str, axis: &str) -> &'static str {
         (_, "nov") => "nodes of nov",
         _ => "nodes of roughness",
     }
+}
+
+/// An axis by the words that are sought: the root of alpha is roughness, whose square is alpha.
+fn plain(spec: AxisSpec) -> AxisSpec {
+    let (parameter, mapping) = match (spec.parameter, spec.mapping) {
+        (Parameter::Alpha, Mapping::Sqrt) => (Parameter::Roughness, Mapping::Linear),
+        (Parameter::Roughness, Mapping::Square) => (Parameter::Alpha, Mapping::Linear),
+        both => both,
+    };
+    AxisSpec { parameter, mapping, ..spec }
 }
 
 /// Whether an axis is among those that are sought.

@@ -31,7 +31,6 @@ pub enum Kind {
     WrongDistribution,
     WrongChannels,
     WrongMapping,
-    WrongSize,
     NotOurs,
     BeyondBound,
 }
@@ -40,7 +39,7 @@ choice!(Kind, "fault", {
     InvalidContainer = "invalid-container", "the container contradicts itself or its standard";
     NotFinite = "not-finite", "values are NaN or infinite";
     Constant = "constant", "no channel varies";
-    Flipped = "flipped", "an axis runs the other way than the file or the engine says";
+    Flipped = "flipped", "an axis runs the other way than the metadata or the engine say";
     Transposed = "transposed", "n.v and roughness have changed places";
     ShiftedNodes = "shifted-nodes", "texels lie where no lookup reads them";
     SrgbEncoded = "srgb-encoded", "values are on a curve of which the file says nothing";
@@ -53,7 +52,6 @@ choice!(Kind, "fault", {
     WrongDistribution = "wrong-distribution", "the distribution is not that of the engine";
     WrongChannels = "wrong-channels", "channels are not those of the engine";
     WrongMapping = "wrong-mapping", "the mapping of an axis is not that of the engine";
-    WrongSize = "wrong-size", "the size is not that of the engine";
     NotOurs = "not-as-baked", "texels or metadata of splitsum's file are not those of its bake";
     BeyondBound = "beyond-bound", "an error is larger than --max-error";
 });
@@ -81,6 +79,12 @@ pub fn of_file(table: &Foreign, channels: &[Channel]) -> Vec<Fault> {
         container.map(|text| Fault::new(Kind::InvalidContainer, text.clone())).collect();
     for channel in channels.iter().filter(|channel| channel.not_finite > 0) {
         let text = format!("{} texels of {} are NaN or infinite", channel.not_finite, channel.name);
+        faults.push(Fault::new(Kind::NotFinite, text));
+    }
+    let others = table.values.len() / table.size[2];
+    let wrong = table.values[others..].iter().filter(|value| !value.is_finite()).count();
+    if wrong > 0 {
+        let text = format!("{wrong} values of slices behind the first are NaN or infinite");
         faults.push(Fault::new(Kind::NotFinite, text));
     }
     let constant = |channel: &Channel| matches!(channel.idle, Some(Idle::Constant(_)));
@@ -120,8 +124,8 @@ fn agree(a: Curve, b: Curve) -> bool {
     }
 }
 
-/// The faults of a layout: nodes where no lookup reads, rows against the file's word.
-pub fn of_layout(table: &Foreign, layout: &Layout, decisions: &[Decision]) -> Vec<Fault> {
+/// The faults of a layout: nodes where no lookup reads.
+pub fn of_layout(layout: &Layout, decisions: &[Decision]) -> Vec<Fault> {
     let decided = |dimension: &str| {
         decisions.iter().any(|decision| decision.dimension == dimension && decision.decided)
     };
@@ -143,10 +147,6 @@ pub fn of_layout(table: &Foreign, layout: &Layout, decisions: &[Decision]) -> Ve
             faults.push(Fault::new(Kind::ShiftedNodes, text));
         }
     }
-    if table.bottom_first == Some(true) {
-        let text = "the file says that its first row is the bottom one";
-        faults.push(Fault::new(Kind::Flipped, text));
-    }
     faults
 }
 
@@ -161,7 +161,6 @@ const BIAS: f64 = 0.8;
 
 /// The faults of a channel's values.
 pub fn of_values(
-    table: &Foreign,
     channel: &Channel,
     meaning: &Meaning,
     differences: &Differences,
@@ -181,18 +180,18 @@ pub fn of_values(
         let text = format!("{name} is too {which} by {:.1e} on the average", bias.abs());
         faults.push(Fault::new(Kind::Biased, text));
     }
-    faults.extend(border(table, name, &differences.values));
+    faults.extend(border(name, differences));
     faults
 }
 
 /// A row or column at an end that is far worse than the others.
-fn border(table: &Foreign, name: &str, differences: &[f64]) -> Option<Fault> {
-    let [columns, rows, _] = table.size;
+fn border(name: &str, differences: &Differences) -> Option<Fault> {
+    let [columns, rows] = differences.size;
     if columns < 4 || rows < 4 {
         return None;
     }
     let mean = |inside: &dyn Fn(usize, usize) -> bool| {
-        let texels = differences.iter().enumerate();
+        let texels = differences.values.iter().enumerate();
         let chosen = texels.filter(|(k, d)| inside(k % columns, k / columns) && d.is_finite());
         let (sum, count) = chosen.fold((0.0, 0), |(sum, n), (_, d)| (sum + d.abs(), n + 1));
         sum / f64::from(count.max(1))

@@ -1,7 +1,7 @@
 //! The sampler that made a table: the estimator that engines bake with repeats its numbers to the
 //! last digits where nodes, masking, count and frame are right, and proves all of them at once.
 
-use super::channel::{Channel, texels};
+use super::channel::{Channel, Texels};
 use super::decoding::Decoding;
 use super::layout::Layout;
 use super::sample::Packing;
@@ -129,11 +129,11 @@ impl Suspect<'_> {
     /// How far the known channels are from these values at these texels, in units of their spreads,
     /// ascending; what is no number is left out.
     fn differences(&self, values: Vec<Values>, at: &[(usize, usize)]) -> Vec<f64> {
-        let all = texels(self.table, self.slice);
+        let all = Texels::new(self.table, self.slice);
         let mut differences = Vec::new();
         for (&(i, j), values) in at.iter().zip(&values) {
             for &(channel, quantity) in self.packing {
-                let value = self.decoding.value(all[j * self.table.size[0] + i], channel);
+                let value = self.decoding.value(&all[j * self.table.size[0] + i], channel);
                 let difference = (value - quantity.value(values)).abs();
                 differences.push(difference / self.channels[channel].spread);
             }

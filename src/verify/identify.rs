@@ -2,13 +2,13 @@
 //! texels the nodes.
 
 use super::candidates::{NUMBERS, likely, sheen, split_sums, unlikely};
-use super::channel::{Channel, channels, texels};
+use super::channel::{Channel, Texels, channels};
 use super::decision::{self, Decision, decide};
 use super::decoding::Decoding;
 use super::layout::{Layout, NODES};
-use super::sample::{FLOOR, Sample, trimmed_mean};
+use super::sample::{FLOOR, Quantity, Sample, trimmed_mean};
 use super::search::{EveryLayout, Hypothesis, nearest, points, with_layouts};
-use super::truth::Truth;
+use super::truth::{Truth, Values};
 use crate::error::Result;
 use crate::foreign::Foreign;
 use crate::table::axis::{AxisSpec, Nodes};
@@ -44,17 +44,20 @@ pub struct Identity {
 /// The nearest hypothesis for a slice; none of a table without a channel that tells something.
 pub fn identify(table: &Foreign, slice: usize) -> Result<Option<Identity>> {
     let size = [table.size[0], table.size[1]];
-    let decodings = Decoding::of(table);
     let few = |decoding: Decoding| {
         let channels = channels(table, slice, decoding);
         let sample = Sample::new(table, slice, decoding, &channels, FEW);
         (channels, sample)
     };
-    let both = decodings.iter().map(|&decoding| few(decoding));
-    let (lists, few): (Vec<Vec<Channel>>, Vec<Sample>) = both.unzip();
-    if few.iter().any(|sample| sample.live() == 0) {
+    // A way that leaves no channel is none: over an alpha of 0 there are no values.
+    let mut ways: Vec<(Decoding, (Vec<Channel>, Sample))> =
+        Decoding::of(table, slice).into_iter().map(|decoding| (decoding, few(decoding))).collect();
+    ways.retain(|(_, (_, sample))| sample.live() > 0);
+    if ways.is_empty() {
         return Ok(None);
     }
+    let (decodings, both): (Vec<Decoding>, Vec<_>) = ways.into_iter().unzip();
+    let (lists, few): (Vec<Vec<Channel>>, Vec<Sample>) = both.into_iter().unzip();
     // Layouts by few lobes, for each way to decode; lobes by the nearest layouts.
     let mut lobes = Vec::new();
     let mut found: Vec<Vec<Hypothesis>> = vec![Vec::new(); decodings.len()];
@@ -206,7 +209,7 @@ fn where_divided(
     channels: &[Channel],
 ) -> f64 {
     let [columns, rows, _] = table.size;
-    let all = texels(table, slice);
+    let all = Texels::new(table, slice);
     let divided = |texel: &usize| all[*texel].last().is_some_and(|&alpha| alpha < 1.0);
     let places: Vec<usize> = (0..columns * rows).filter(divided).collect();
     let step = places.len().div_ceil(MANY * MANY).max(1);
@@ -215,17 +218,20 @@ fn where_divided(
         points(&hypothesis.layout, [columns, rows], [&[texel % columns], &[texel / columns]])[0]
     };
     let truth = hypothesis.truth.at(&places.iter().map(|&texel| point(texel)).collect::<Vec<_>>());
-    let mut sum = 0.0;
-    for &(channel, quantity) in &hypothesis.packing {
-        let mut differences: Vec<f64> = places
-            .iter()
-            .zip(&truth)
-            .map(|(&texel, truth)| decoding.value(all[texel], channel) - quantity.value(truth))
-            .map(f64::abs)
-            .collect();
-        sum += trimmed_mean(&mut differences) / channels[channel].spread;
+    // Where alpha is 1 everywhere nothing speaks for a divisor or against it.
+    if places.is_empty() {
+        return 0.0;
     }
-    sum / hypothesis.packing.len().max(1) as f64
+    let of = |&(channel, quantity): &(usize, Quantity)| {
+        let Some(Channel { spread, .. }) = channels.get(channel) else { return f64::INFINITY };
+        let difference = |(&texel, truth): (&usize, &Values)| {
+            let difference = decoding.value(&all[texel], channel) - quantity.value(truth);
+            if difference.is_nan() { f64::INFINITY } else { difference.abs() }
+        };
+        let mut differences: Vec<f64> = places.iter().zip(&truth).map(difference).collect();
+        trimmed_mean(&mut differences) / spread
+    };
+    hypothesis.packing.iter().map(of).sum::<f64>() / hypothesis.packing.len().max(1) as f64
 }
 
 /// The first layouts of a sorted list that differ in more than nodes.

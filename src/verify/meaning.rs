@@ -115,6 +115,10 @@ impl Meaning {
                     (lut, Quantity::Channel(channel)) if lobe(lut.integrand()) == lobe(own) => {
                         lut.channels().get(*channel)?.name.to_lowercase()
                     }
+                    // Another lobe has a word for its E alone, which is the last.
+                    (lut, Quantity::Channel(channel)) if channel + 1 < lut.channels().len() => {
+                        return None;
+                    }
                     (lut, _) => match lut.integrand() {
                         Integrand::Specular(lobe, _)
                             if lobe.masking == lobe.ndf.default_masking() =>

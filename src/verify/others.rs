@@ -1,6 +1,6 @@
 //! The channels beside a table's own pair: what else of ours each may be, scaled and shifted.
 
-use super::channel::{Channel, Idle, texels};
+use super::channel::{Channel, Idle, Texels};
 use super::decoding::Decoding;
 use super::meaning::Meaning;
 use super::sample::{FLOOR, Quantity, trimmed_mean};
@@ -41,7 +41,7 @@ pub fn meanings(
     let [columns, rows, _] = table.size;
     let step = |size: usize| (0..size).step_by(size.div_ceil(SIDE)).collect::<Vec<_>>();
     let (xs, ys) = (step(columns), step(rows));
-    let all = texels(table, slice);
+    let all = Texels::new(table, slice);
     let points = super::search::points(&nearest.layout, [columns, rows], [&xs, &ys]);
     let of = |(place, channel): (usize, &Channel)| {
         if let Some(&(_, quantity)) = nearest.packing.iter().find(|(own, _)| *own == place) {
@@ -53,7 +53,7 @@ pub fn meanings(
             Some(Idle::Broken) => return Meaning::Unknown,
             None => (),
         }
-        let texel = |(j, i): (&usize, &usize)| decoding.value(all[j * columns + i], place);
+        let texel = |(j, i): (&usize, &usize)| decoding.value(&all[j * columns + i], place);
         let pairs = ys.iter().flat_map(|j| xs.iter().map(move |i| (j, i)));
         let values: Vec<f64> = pairs.map(texel).collect();
         nearest_of(&candidates, &points, &values, channel.spread)

@@ -92,8 +92,9 @@ fn convention(report: &Report) -> String {
         text += "<p>The same with true integrals, at nodes that a sampler reads:</p>\n";
         text += &format!("<pre><code>{}</code></pre>\n", escape(right));
     }
-    let row = |Decision { dimension, choice, ratio, decided, others }: &Decision| {
+    let row = |Decision { dimension, choice, ratio, decided, proved, others }: &Decision| {
         let next = match (ratio.is_finite(), decided) {
+            _ if *proved => "proved by the sampler".into(),
             (false, _) => "no other is possible".into(),
             (true, true) => format!("{} times as far", short(*ratio)),
             (true, false) => format!("undecided: {} fit as well", others.join(", ")),
@@ -114,7 +115,7 @@ fn convention(report: &Report) -> String {
 fn errors(report: &Report) -> String {
     let mut rows = Vec::new();
     for ChannelReport { name, meaning, stored, sampled, .. } in &report.channels {
-        for (which, Errors { mean, most, largest, bias, worst }) in
+        for (which, Errors { mean, most, largest, bias, worst, .. }) in
             [("stored", stored), ("as sampled", sampled)]
         {
             let Place { nov, roughness, value, truth, .. } = *worst;
@@ -152,12 +153,9 @@ fn errors(report: &Report) -> String {
 
 /// The errors of stored values as maps, the worst ringed.
 fn maps(report: &Report) -> Result<String> {
-    let [columns, rows, _] = report.file.size;
     let mut figures = String::new();
-    for ChannelReport { name, meaning, stored, differences, .. } in &report.channels {
-        if differences.len() != columns * rows {
-            continue;
-        }
+    for ChannelReport { name, meaning, stored, differences, measured, .. } in &report.channels {
+        let [columns, rows] = *measured;
         let mut picture = Picture::new(columns, rows, [0; 3]);
         for (texel, difference) in differences.iter().enumerate() {
             let share = (difference.abs() / LEAST).max(1.0).log10() / (MOST / LEAST).log10();
@@ -176,8 +174,8 @@ fn maps(report: &Report) -> Result<String> {
              stroke-width=\"2\"/>\n</svg>\n<figcaption>{}: the largest error, ringed, is \
              {}</figcaption>\n</figure>\n",
             address_of(&picture)?,
-            (i + 0.5) / columns as f64 * width,
-            (j + 0.5) / rows as f64 * height,
+            (i + 0.5) / report.file.size[0] as f64 * width,
+            (j + 0.5) / report.file.size[1] as f64 * height,
             escape(&format!("{name} ({meaning})")),
             short(stored.largest)
         );

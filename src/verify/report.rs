@@ -74,7 +74,9 @@ pub struct ChannelReport {
     pub stored: Errors,
     /// The errors of a bilinear lookup.
     pub sampled: Errors,
-    /// Value less truth of every texel, row by row.
+    /// Columns and rows that were measured.
+    pub measured: [usize; 2],
+    /// Value less truth of those texels, row by row.
     #[serde(skip)]
     pub differences: Vec<f64>,
 }

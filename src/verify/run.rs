@@ -4,7 +4,7 @@ use super::channel::channels;
 use super::convention::Words;
 use super::decision::{self, Decision};
 use super::decoding::Decoding;
-use super::errors::{Convention, TOLERANCE};
+use super::errors::{Convention, Differences, TOLERANCE};
 use super::expected::Expected;
 use super::fault::{self, Fault, Kind};
 use super::fingerprint::{Fingerprint, Suspect, fingerprint};
@@ -56,21 +56,47 @@ pub fn verify(name: &str, table: &Foreign, demands: &Demands) -> Result<Report> 
     };
     match (&demands.expected, &found) {
         (Some(expected), found) => compare(&mut report, table, expected, found.as_ref())?,
-        (None, Some(found)) => report.channels = errors(table, &found.convention(), found.own)?,
+        (None, Some(found)) => {
+            let convention = found.convention();
+            report.channels = errors(table, &convention, found.own, &found.stored)?;
+        }
         (None, None) => (),
     }
-    if let Some(most) = demands.largest_error {
-        for channel in &report.channels {
-            // It is a number: what is none is a fault of its own.
-            if channel.stored.largest > most {
-                let got = channel.stored.largest;
-                let text = format!("{} errs by {got:.2e}, {most:e} allowed", channel.name);
-                report.faults.push(Fault::new(Kind::BeyondBound, text));
-            }
+    let not_finite = report.faults.iter().any(|fault| fault.name == Kind::NotFinite);
+    for channel in report.channels.iter().filter(|_| !not_finite) {
+        let (count, all) = channel.stored.not_finite;
+        if count > 0 {
+            let text = format!("{count} of {all} values of {} are no numbers", channel.name);
+            report.faults.push(Fault::new(Kind::NotFinite, text));
         }
+    }
+    if let Some(most) = demands.largest_error {
+        report.faults.extend(beyond(&report, found.as_ref(), most));
     }
     report.seconds = start.elapsed().as_secs_f64();
     Ok(report)
+}
+
+/// Where an error exceeds the largest that is allowed, or cannot be told.
+fn beyond(report: &Report, found: Option<&Found>, most: f64) -> Vec<Fault> {
+    let mut texts = Vec::new();
+    for channel in &report.channels {
+        if channel.stored.largest > most {
+            let got = channel.stored.largest;
+            texts.push(format!("{} errs by {got:.2e}, {most:e} allowed", channel.name));
+        }
+    }
+    let meanings = found.map_or(&[][..], |found| &found.meanings);
+    for (channel, meaning) in report.file.channels.iter().zip(meanings) {
+        let judged = report.channels.iter().any(|judged| judged.name == channel.name);
+        if *meaning == Meaning::Unknown && !judged {
+            texts.push(format!("{} is unknown, and has no error", channel.name));
+        }
+    }
+    if report.file.size[2] > 1 {
+        texts.push("slices behind the first have no error".into());
+    }
+    texts.into_iter().map(|text| Fault::new(Kind::BeyondBound, text)).collect()
 }
 
 /// A convention that was found.
@@ -79,6 +105,8 @@ struct Found {
     layout: Layout,
     meanings: Vec<Meaning>,
     own: Integrand,
+    /// The differences of each channel that is known.
+    stored: Vec<Option<Differences>>,
 }
 
 impl Found {
@@ -99,16 +127,32 @@ fn compare(
     let (decoding, layout) = (expected.decoding(), expected.layout());
     let convention = Convention { decoding, layout, meanings: &meanings };
     let own = expected.request.packing().main().integrand();
-    report.channels = errors(table, &convention, own)?;
+    report.channels = errors(table, &convention, own, &[])?;
     match found {
+        _ if expected.certain => {
+            report.status = Status::Known;
+            // Its axes are what it says, which hypotheses need not hold; so are its faults.
+            let of_file = [Kind::InvalidContainer, Kind::NotFinite, Kind::Constant, Kind::EightBit];
+            report.faults.retain(|fault| of_file.contains(&fault.name));
+            if found.is_none() {
+                report.distance = None;
+                report.decisions.clear();
+                report.convention = Some(Words::of_request(&expected.request, table));
+            }
+        }
         Some(found) => {
             let decisions = report.decisions.clone();
-            report.faults.extend(expected.faults(table, &found.convention(), &decisions));
+            let theirs = (&found.convention(), found.own);
+            report.faults.extend(expected.faults(table, theirs, &decisions));
         }
         // What is not sought may be known by its name.
         None => {
             let spreads = channels(table, 0, decoding);
             let share = |channel: &ChannelReport| {
+                let (count, all) = channel.stored.not_finite;
+                if count * 5 > all {
+                    return f64::INFINITY;
+                }
                 let named = spreads.iter().find(|other| other.name == channel.name);
                 channel.stored.mean / named.map_or(1.0, |other| other.spread.max(1e-3))
             };
@@ -124,22 +168,31 @@ fn compare(
     Ok(())
 }
 
-/// The errors of the channels whose meaning is known.
-fn errors(table: &Foreign, convention: &Convention, own: Integrand) -> Result<Vec<ChannelReport>> {
+/// The errors of the channels whose meaning is known; those of stored values may be known already.
+fn errors(
+    table: &Foreign,
+    convention: &Convention,
+    own: Integrand,
+    known: &[Option<Differences>],
+) -> Result<Vec<ChannelReport>> {
     let mut reports = Vec::new();
-    for (place, meaning) in convention.meanings.iter().enumerate() {
+    for (place, meaning) in convention.meanings.iter().enumerate().take(table.components()) {
         if !meaning.varies() {
             continue;
         }
-        let stored = convention.stored(table, 0, place)?;
+        let stored = match known.get(place).cloned().flatten() {
+            Some(stored) => Some(stored),
+            None => convention.stored(table, 0, place)?,
+        };
         let sampled = convention.sampled(table, 0, place)?;
-        if let Some((stored, sampled)) = stored.zip(sampled) {
+        if let Some((Differences { size, values, errors }, sampled)) = stored.zip(sampled) {
             reports.push(ChannelReport {
                 name: table.names[place].clone(),
                 meaning: meaning.term(own).unwrap_or_default(),
-                stored: stored.errors,
+                stored: errors,
                 sampled,
-                differences: stored.values,
+                measured: size,
+                differences: values,
             });
         }
     }
@@ -150,13 +203,17 @@ fn errors(table: &Foreign, convention: &Convention, own: Integrand) -> Result<Ve
 fn report_of_file(name: &str, table: &Foreign) -> Report {
     let channels = channels(table, 0, Decoding::Linear);
     let faults = fault::of_file(table, &channels);
+    let mut notes = table.notes.clone();
+    if table.size[2] > 1 {
+        notes.push("the first slice is told; errors are its own".into());
+    }
     let file = FileFacts {
         name: name.into(),
         container: table.container,
         size: table.size,
         storage: table.storage.to_string(),
         steps: quantisation(table).to_string(),
-        notes: table.notes.clone(),
+        notes,
         channels,
     };
     Report {
@@ -184,13 +241,14 @@ fn describe(report: &mut Report, table: &Foreign, identity: Identity) -> Result<
         false => None,
     };
     if let Some(sampler) = &sampler {
-        prove(sampler, nearest.distance, &mut decisions);
+        prove(sampler, &mut decisions);
         nearest.layout = sampler.layout;
     }
     let meanings = meanings(table, 0, decoding, &channels, &nearest)?;
     let sample = Sample::new(table, 0, decoding, &channels, MANY);
     let offsets = offsets(nearest.truth, nearest.layout, &nearest.packing, size, &sample);
-    let found = Found { decoding, layout: nearest.layout, meanings, own: lut.integrand() };
+    let (own, layout) = (lut.integrand(), nearest.layout);
+    let mut found = Found { decoding, layout, meanings, own, stored: Vec::new() };
     let words = Words::new(
         table,
         (decoding, found.layout),
@@ -200,15 +258,18 @@ fn describe(report: &mut Report, table: &Foreign, identity: Identity) -> Result<
     );
     let numbers = quantisation(table);
     report.faults.extend(fault::of_storage(table, numbers, decoding));
-    report.faults.extend(fault::of_layout(table, &found.layout, &decisions));
+    report.faults.extend(fault::of_layout(&found.layout, &decisions));
     for (place, channel) in channels.iter().enumerate() {
         let meaning = &found.meanings[place];
-        if let Some(stored) =
-            found.convention().stored(table, 0, place)?.filter(|_| meaning.varies())
-        {
+        let stored = match meaning.varies() {
+            true => found.convention().stored(table, 0, place)?,
+            false => None,
+        };
+        if let Some(stored) = &stored {
             let half_step = numbers.half_step();
-            report.faults.extend(fault::of_values(table, channel, meaning, &stored, half_step));
+            report.faults.extend(fault::of_values(channel, meaning, stored, half_step));
         }
+        found.stored.push(stored);
     }
     report.status = Status::Known;
     report.convention = Some(words);
@@ -223,19 +284,16 @@ fn describe(report: &mut Report, table: &Foreign, identity: Identity) -> Result<
     Ok(found)
 }
 
-/// A sampler that repeats a table proves its nodes and its masking.
-fn prove(sampler: &Fingerprint, distance: f64, decisions: &mut [Decision]) {
-    let ratio = distance / sampler.left.0.max(f64::MIN_POSITIVE);
+/// A sampler that repeats a table proves its nodes and its masking, whatever else fits.
+fn prove(sampler: &Fingerprint, decisions: &mut [Decision]) {
     for decision in decisions {
-        let choice = match decision.dimension {
+        decision.choice = match decision.dimension {
             "nodes of nov" => decision::nodes(sampler.layout.nov()),
             "nodes of roughness" => decision::nodes(sampler.layout.roughness()),
             "masking" => decision.choice.clone(),
             _ => continue,
         };
-        decision.choice = choice;
-        decision.ratio = decision.ratio.max(ratio);
-        decision.decided = true;
+        (decision.decided, decision.proved) = (true, true);
         decision.others.clear();
     }
 }

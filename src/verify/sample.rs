@@ -1,6 +1,6 @@
 //! Some texels of a table, and how far a hypothesis is from them.
 
-use super::channel::{Channel, texels};
+use super::channel::{Channel, Texels};
 use super::decoding::Decoding;
 use super::truth::Values;
 use crate::foreign::Foreign;
@@ -35,7 +35,7 @@ pub struct Sample {
 }
 
 /// So many of the texels of an axis, evenly spread, both ends included.
-fn spread(size: usize, count: usize) -> Vec<usize> {
+pub fn spread(size: usize, count: usize) -> Vec<usize> {
     match size {
         size if size <= count => (0..size).collect(),
         size => (0..count).map(|k| (k * (size - 1) + (count - 1) / 2) / (count - 1)).collect(),
@@ -53,9 +53,9 @@ impl Sample {
     ) -> Self {
         let [columns, rows, _] = table.size;
         let (xs, ys) = (spread(columns, count), spread(rows, count));
-        let all = texels(table, slice);
+        let all = Texels::new(table, slice);
         let value = |component: usize| {
-            let at = |(i, j): (&usize, &usize)| decoding.value(all[j * columns + i], component);
+            let at = |(i, j): (&usize, &usize)| decoding.value(&all[j * columns + i], component);
             ys.iter().flat_map(|j| xs.iter().map(move |i| (i, j))).map(at).collect()
         };
         let live = channels.iter().enumerate().filter(|(_, channel)| channel.idle.is_none());
@@ -142,8 +142,11 @@ fn distance(values: &[f64], truth: &[Values], number: Quantity) -> f64 {
     trimmed_mean(&mut differences)
 }
 
-/// The mean of the smallest four fifths.
+/// The mean of the smallest four fifths; infinite where there are none.
 pub fn trimmed_mean(differences: &mut [f64]) -> f64 {
+    if differences.is_empty() {
+        return f64::INFINITY;
+    }
     let kept = ((differences.len() as f64 * KEPT).ceil() as usize).clamp(1, differences.len());
     differences.select_nth_unstable_by(kept - 1, f64::total_cmp);
     differences[..kept].iter().sum::<f64>() / kept as f64

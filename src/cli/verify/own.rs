@@ -1,15 +1,33 @@
 //! Files of splitsum against their own metadata: they are baked again, and compared byte for byte.
 
+use super::ReadArgs;
 use crate::backend::Backend;
 use crate::bake::Plan;
 use crate::cli::table_args::{Job, TableArgs};
-use crate::error::{Error, Result};
-use crate::foreign::{Foreign, Reading};
+use crate::error::{Error, Result, clean};
+use crate::foreign::Foreign;
+use crate::request::Accuracy;
 use crate::verify::{Expected, Fault, Kind};
 use std::io::Cursor;
 
+/// Seconds of a point of an estimator on one core.
+const SECONDS_A_POINT: f64 = 1e-8;
+
 /// The longest bake, by its own plan: a file may ask for hours.
 const LONGEST: f64 = 60.0;
+
+/// The comment that begins the source code of a table.
+const COMMENT: &str = "// splitsum ";
+
+/// A file that says how splitsum baked it.
+pub struct Own {
+    /// What it is to be, where its command bakes a table of its size.
+    pub expected: Option<Expected>,
+    /// Where it is not what its command bakes.
+    pub fault: Option<Fault>,
+    /// What else is to be known of it.
+    pub note: Option<String>,
+}
 
 /// The command in the metadata of a file of splitsum, or in the comment of its source code.
 pub fn command(bytes: &[u8], table: &Foreign) -> Option<String> {
@@ -21,12 +39,15 @@ pub fn command(bytes: &[u8], table: &Foreign) -> Option<String> {
     let command = match table.own.first() {
         Some(text) => of_json(text),
         None => std::str::from_utf8(bytes).ok().and_then(|text| {
-            let (_, rest) = text.split_once(": splitsum bake ")?;
-            rest.lines().next().map(|line| format!("splitsum bake {line}"))
+            let line = text.lines().take(LINES).find(|line| line.starts_with(COMMENT))?;
+            line.split_once(": ").map(|(_, command)| command.to_owned())
         }),
     };
     command?.strip_prefix("splitsum bake ").map(str::to_owned)
 }
+
+/// The comment stands within so many lines.
+const LINES: usize = 8;
 
 /// The job of a command; an error where it is none, or of another size.
 fn job(command: &str, table: &Foreign) -> std::result::Result<Job, String> {
@@ -40,34 +61,48 @@ fn job(command: &str, table: &Foreign) -> std::result::Result<Job, String> {
     }
 }
 
-/// What the metadata say that a table is, where its command bakes one of its size.
-pub fn expected(command: &str, table: &Foreign) -> Result<Option<Expected>> {
-    let expected = |job: Job| Expected { whose: "its metadata".into(), request: job.request };
-    Ok(job(command, table).ok().map(expected))
+/// The seconds of a bake: by its plan, or by the points of an estimator.
+fn seconds(job: &Job, plan: &Plan) -> f64 {
+    let of_estimator = match job.request.accuracy() {
+        Accuracy::Estimator(estimator) => {
+            let count = f64::from(estimator.count().unwrap_or(0));
+            job.request.texels() as f64 * count * SECONDS_A_POINT
+        }
+        _ => 0.0,
+    };
+    plan.seconds() + of_estimator
 }
 
-/// Where a file is not what its own command bakes.
-pub fn faults(command: &str, bytes: &[u8], table: &Foreign) -> Result<Vec<Fault>> {
-    let fault = |text: String| Ok(vec![Fault::new(Kind::NotOurs, text)]);
-    let job = match job(command, table) {
-        Ok(job) => job,
-        Err(why) => return fault(why),
-    };
-    let backend = Backend::cpu();
-    let plan = Plan::new(&job.request, &backend)?;
-    if plan.seconds() > LONGEST {
-        return fault(format!("a bake of {:.0} s was not repeated", plan.seconds()));
+impl Own {
+    /// Bakes the table again, and compares.
+    pub fn new(command: &str, table: &Foreign, bytes: &[u8], read: &ReadArgs) -> Result<Self> {
+        let fault = |text: &str| Some(Fault::new(Kind::NotOurs, clean(text, 400)));
+        let job = match job(command, table) {
+            Ok(job) => job,
+            Err(why) => return Ok(Own { expected: None, fault: fault(&why), note: None }),
+        };
+        let request = job.request.clone();
+        let expected = |certain| {
+            Some(Expected { whose: "its metadata".into(), request: request.clone(), certain })
+        };
+        let backend = Backend::cpu();
+        let plan = Plan::new(&job.request, &backend)?;
+        let seconds = seconds(&job, &plan);
+        if seconds > LONGEST {
+            let note = format!("not baked again to be compared: that takes {seconds:.0} s");
+            return Ok(Own { expected: expected(false), fault: None, note: Some(note) });
+        }
+        let baked = plan.bake(&|_| ())?.table;
+        let mut file = Cursor::new(Vec::new());
+        job.encoding.write(&baked, &mut file)?;
+        let again = file.into_inner();
+        if again == bytes {
+            return Ok(Own { expected: expected(true), fault: None, note: None });
+        }
+        let again = Foreign::read("the bake", &again, &read.reading()?)?;
+        let differences = differences(table, &again);
+        Ok(Own { expected: expected(false), fault: fault(&differences), note: None })
     }
-    let baked = plan.bake(&|_| ())?.table;
-    let mut file = Cursor::new(Vec::new());
-    job.encoding.write(&baked, &mut file)?;
-    let again = file.into_inner();
-    if again == bytes {
-        return Ok(Vec::new());
-    }
-    let reading = Reading::default();
-    let again = Foreign::read("the bake", &again, &reading)?;
-    Ok(vec![Fault::new(Kind::NotOurs, differences(table, &again))])
 }
 
 /// What differs, in words.
@@ -103,8 +138,14 @@ fn differences(table: &Foreign, again: &Foreign) -> String {
 
 /// The keys of metadata that differ.
 fn changed_keys(found: &[String], baked: &[String]) -> Vec<String> {
+    // A text holds the metadata of one slice, or a list of those of all.
     let parse = |texts: &[String]| -> Vec<serde_json::Value> {
-        texts.iter().filter_map(|text| serde_json::from_str(text).ok()).collect()
+        let of = |text: &String| match serde_json::from_str(text) {
+            Ok(serde_json::Value::Array(list)) => list,
+            Ok(one) => vec![one],
+            Err(_) => Vec::new(),
+        };
+        texts.iter().flat_map(of).collect()
     };
     let mut keys = Vec::new();
     for (found, baked) in parse(found).iter().zip(&parse(baked)) {

@@ -40,12 +40,15 @@ pub fn text(report: &Report) -> String {
                 100.0 * distance
             ),
         ),
-        (None, None) => say("unknown", "no channel varies".into()),
+        (None, None) => {
+            say("unknown", "no channel varies, or too many of its values are no numbers".into())
+        }
     }
     // Of what is unknown the nearest is chance.
     let known = report.decisions.iter().filter(|_| report.status == Status::Known);
-    for Decision { dimension, choice, ratio, decided, others } in known {
+    for Decision { dimension, choice, ratio, decided, proved, others } in known {
         let sure = match decided {
+            true if *proved => "proved by the sampler".into(),
             true => format!("the next is {ratio:.3} times as far"),
             false => format!("undecided: {} fit as well", others.join(", ")),
         };

@@ -55,6 +55,10 @@ fn unsigned(text: &str) -> Option<(Literal, usize)> {
             (end, decimal) = (end + 1 + sign + count, true);
         }
     }
+    // One that goes on behind what is looked at is none.
+    if end == LONGEST {
+        return None;
+    }
     let number = &text[..end];
     let length = end + suffix(&bytes[end..]);
     match number.parse::<u32>() {

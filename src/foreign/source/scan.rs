@@ -15,24 +15,24 @@ const FEWEST: usize = 4;
 const SHORTEST_BASE64: usize = 100;
 
 /// A list of numbers.
-pub struct Numbers {
+pub struct Numbers<'a> {
     /// Whole numbers, or decimals by the bits of their f32.
     pub bits: Vec<u32>,
     /// Whether they are decimals.
     pub decimal: bool,
     /// The identifier before the list.
-    pub name: Option<String>,
+    pub name: Option<&'a str>,
 }
 
 /// What is found in text.
 pub enum Found<'a> {
-    Numbers(Numbers),
+    Numbers(Numbers<'a>),
     Base64(&'a str),
 }
 
-/// The longest list or string behind the first mention of this array, up to its end; without a
-/// name of all.
-pub fn find<'a>(text: &'a str, array: Option<&str>) -> Read<Found<'a>> {
+/// The first list or string that is long enough behind the first mention of this array; without a
+/// name the longest of all.
+pub fn find<'a>(text: &'a str, array: Option<&'a str>) -> Read<Found<'a>> {
     let start = match array {
         None => 0,
         Some(name) => match mention(text, name) {
@@ -40,7 +40,7 @@ pub fn find<'a>(text: &'a str, array: Option<&str>) -> Read<Found<'a>> {
             None => return refuse(format!("an array '{}'", clean(name, 60)), "none of that name"),
         },
     };
-    let mut scan = Scan { text, at: start, name: array.map(str::to_owned), first: array.is_some() };
+    let mut scan = Scan { text, at: start, name: array, first: array.is_some() };
     match scan.longest()? {
         Some(found) => Ok(found),
         None => refuse("EXR, KTX2, DDS, PNG, npy, or text with an array of numbers", "no array"),
@@ -62,7 +62,7 @@ struct Scan<'a> {
     text: &'a str,
     at: usize,
     /// The last identifier outside of a list.
-    name: Option<String>,
+    name: Option<&'a str>,
     /// Whether the first that is long enough will do.
     first: bool,
 }
@@ -99,7 +99,7 @@ impl<'a> Scan<'a> {
     }
 
     /// One token.
-    fn step(&mut self, list: &mut Numbers) -> Read<Step<'a>> {
+    fn step(&mut self, list: &mut Numbers<'a>) -> Read<Step<'a>> {
         let rest = self.rest();
         let Some(c) = rest.chars().next() else { return Ok(Step::End) };
         match c {
@@ -108,11 +108,19 @@ impl<'a> Scan<'a> {
             '#' => self.skip_to("\n"),
             '/' if rest.starts_with("//") => self.skip_to("\n"),
             '/' if rest.starts_with("/*") => self.skip_to("*/"),
+            // A lifetime opens no string.
+            '\'' if self.text[..self.at].ends_with(['&', '<']) => self.at += 1,
             '"' | '\'' | '`' => return Ok(self.string(c)),
+            // What stands before it are the lengths of an array.
+            '=' => {
+                self.at += 1;
+                list.bits.clear();
+                return Ok(Step::Outside);
+            }
             '0'..='9' | '.' | '-' | '+' => match literal(rest) {
                 Some((number, length)) => {
                     self.at += length;
-                    add(list, number, &self.name)?;
+                    add(list, number, self.name)?;
                 }
                 None => {
                     self.at += 1;
@@ -168,7 +176,7 @@ impl<'a> Scan<'a> {
         if !["static", "const", "new", "pub", "let", "var", "array"].contains(&word)
             && !word.ends_with("Array")
         {
-            self.name = Some(word.to_owned());
+            self.name = Some(word);
         }
         Step::Outside
     }
@@ -192,9 +200,9 @@ fn length(found: &Found) -> usize {
 }
 
 /// Adds a number to a list; the first decimal makes decimals of whole numbers before it.
-fn add(list: &mut Numbers, number: Literal, name: &Option<String>) -> Read<()> {
+fn add<'a>(list: &mut Numbers<'a>, number: Literal, name: Option<&'a str>) -> Read<()> {
     if list.bits.is_empty() {
-        list.name.clone_from(name);
+        list.name = name;
     }
     if list.bits.len() >= MOST_NUMBERS {
         return refuse(format!("at most {MOST_NUMBERS} numbers in text"), "more");
