@@ -129,6 +129,11 @@ pub fn decide(
     dimensions.iter().map(decision).collect()
 }
 
+/// Whether a dimension is decided.
+pub fn is_decided(decisions: &[Decision], dimension: &str) -> bool {
+    decisions.iter().any(|decision| decision.dimension == dimension && decision.decided)
+}
+
 /// The decision on how codes become values.
 pub fn decoding(chosen: (Decoding, f64), all: &[(Decoding, f64)]) -> Decision {
     let others = all.iter().filter(|(other, _)| *other != chosen.0);

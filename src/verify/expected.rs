@@ -1,6 +1,6 @@
 //! A table against what it is to be: an engine's convention, or that of its own metadata.
 
-use super::decision::Decision;
+use super::decision::{Decision, is_decided};
 use super::decoding::Decoding;
 use super::errors::Convention;
 use super::fault::{Fault, Kind};
@@ -53,9 +53,7 @@ impl Expected {
         (found, own): (&Convention, Integrand),
         decisions: &[Decision],
     ) -> Vec<Fault> {
-        let decided = |dimension: &str| {
-            decisions.iter().any(|decision| decision.dimension == dimension && decision.decided)
-        };
+        let decided = |dimension: &str| is_decided(decisions, dimension);
         let (theirs, wanted) = (found.layout, self.layout());
         let mut faults = Vec::new();
         let mut differ = |kind, what: &str, got: String, wanted: String| {

@@ -1,7 +1,7 @@
 //! Faults of tables, by stable names.
 
 use super::channel::{Channel, Idle};
-use super::decision::{Decision, nodes};
+use super::decision::{Decision, is_decided, nodes};
 use super::decoding::Decoding;
 use super::errors::{Differences, Errors};
 use super::layout::Layout;
@@ -126,9 +126,6 @@ fn agree(a: Curve, b: Curve) -> bool {
 
 /// The faults of a layout: nodes where no lookup reads.
 pub fn of_layout(layout: &Layout, decisions: &[Decision]) -> Vec<Fault> {
-    let decided = |dimension: &str| {
-        decisions.iter().any(|decision| decision.dimension == dimension && decision.decided)
-    };
     let mut faults = Vec::new();
     for (spec, dimension) in
         [(layout.nov(), "nodes of nov"), (layout.roughness(), "nodes of roughness")]
@@ -137,7 +134,7 @@ pub fn of_layout(layout: &Layout, decisions: &[Decision]) -> Vec<Fault> {
             Nodes::Offset(offset) if offset != 0.5 => offset - 0.5,
             _ => continue,
         };
-        if decided(dimension) {
+        if is_decided(decisions, dimension) {
             let AxisSpec { parameter, .. } = spec;
             let text = format!(
                 "{parameter} lies {off:+} texels from texel centres ({}); a sampler reads texel \

@@ -4,7 +4,7 @@ use super::layout::Layout;
 use super::sample::{Packing, Sample};
 use super::search::points;
 use super::truth::Truth;
-use crate::table::axis::{AxisSpec, Nodes};
+use crate::table::axis::Nodes;
 
 /// Offsets are sought from this step on down to the last one, in texels.
 const STEPS: [f64; 6] = [0.25, 0.1, 0.04, 0.016, 0.006, 0.002];
@@ -28,12 +28,7 @@ pub fn offsets(
     };
     let [xs, ys] = &sample.texels;
     let distance = |[nov, roughness]: [f64; 2]| {
-        let of = |spec: AxisSpec, offset| AxisSpec { nodes: Nodes::Offset(offset), ..spec };
-        let layout = Layout::of(
-            of(layout.nov(), nov),
-            of(layout.roughness(), roughness),
-            layout.is_transposed(),
-        );
+        let layout = layout.with_nodes([Nodes::Offset(nov), Nodes::Offset(roughness)]);
         let values = truth.at(&points(&layout, size, [xs, ys]));
         sample.distance(&values, packing)
     };

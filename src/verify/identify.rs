@@ -6,12 +6,11 @@ use super::channel::{Channel, Texels, channels};
 use super::decision::{self, Decision, decide};
 use super::decoding::Decoding;
 use super::layout::{Layout, NODES};
-use super::sample::{FLOOR, Quantity, Sample, trimmed_mean};
+use super::sample::{FLOOR, Quantity, Sample, distance};
 use super::search::{EveryLayout, Hypothesis, nearest, points, with_layouts};
-use super::truth::{Truth, Values};
+use super::truth::Truth;
 use crate::error::Result;
 use crate::foreign::Foreign;
-use crate::table::axis::{AxisSpec, Nodes};
 
 /// Texels along each axis that tell layouts apart.
 const FEW: usize = 12;
@@ -73,7 +72,7 @@ pub fn identify(table: &Foreign, slice: usize) -> Result<Option<Identity>> {
         }
         let of = |(found, sample): (&mut Vec<Hypothesis>, &Sample)| {
             found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-            among(&lobes, &first_layouts(found, LAYOUTS), size, sample)
+            nearest(&with_lobes(&lobes, &first_layouts(found, LAYOUTS), size, sample)).cloned()
         };
         nearest_of = found.iter_mut().zip(&few).filter_map(of).collect();
         if nearest_of.iter().any(|nearest| nearest.distance < CLOSE[step]) {
@@ -154,8 +153,7 @@ impl Refinement<'_> {
         let mut layouts = vec![nodes.layout];
         let others = sorted.iter().take(LIKELY_NODES).map(|other| other.layout);
         layouts.extend(others.filter(|layout| *layout != nodes.layout));
-        let of = |&lobe: &Truth| with_layouts(lobe, &layouts, size, many, &NUMBERS);
-        let by_lobe: Vec<Hypothesis> = lobes.iter().flat_map(of).collect();
+        let by_lobe = with_lobes(lobes, &layouts, size, many);
         let lobe = nearest(&by_lobe)?;
         // The same lobe with the nodes that are likelier.
         let lobe = if lobe.truth == truth { nodes.clone() } else { lobe.clone() };
@@ -212,24 +210,21 @@ fn where_divided(
     let all = Texels::new(table, slice);
     let divided = |texel: &usize| all[*texel].last().is_some_and(|&alpha| alpha < 1.0);
     let places: Vec<usize> = (0..columns * rows).filter(divided).collect();
-    let step = places.len().div_ceil(MANY * MANY).max(1);
+    // Where alpha is 1 everywhere nothing speaks for a divisor or against it.
+    if places.is_empty() {
+        return 0.0;
+    }
+    let step = places.len().div_ceil(MANY * MANY);
     let places: Vec<usize> = places.into_iter().step_by(step).collect();
     let point = |texel: usize| {
         points(&hypothesis.layout, [columns, rows], [&[texel % columns], &[texel / columns]])[0]
     };
     let truth = hypothesis.truth.at(&places.iter().map(|&texel| point(texel)).collect::<Vec<_>>());
-    // Where alpha is 1 everywhere nothing speaks for a divisor or against it.
-    if places.is_empty() {
-        return 0.0;
-    }
     let of = |&(channel, quantity): &(usize, Quantity)| {
         let Some(Channel { spread, .. }) = channels.get(channel) else { return f64::INFINITY };
-        let difference = |(&texel, truth): (&usize, &Values)| {
-            let difference = decoding.value(&all[texel], channel) - quantity.value(truth);
-            if difference.is_nan() { f64::INFINITY } else { difference.abs() }
-        };
-        let mut differences: Vec<f64> = places.iter().zip(&truth).map(difference).collect();
-        trimmed_mean(&mut differences) / spread
+        let value = |&texel: &usize| decoding.value(&all[texel], channel);
+        let values: Vec<f64> = places.iter().map(value).collect();
+        distance(&values, &truth, quantity) / spread
     };
     hypothesis.packing.iter().map(of).sum::<f64>() / hypothesis.packing.len().max(1) as f64
 }
@@ -238,7 +233,7 @@ fn where_divided(
 fn first_layouts(found: &[Hypothesis], count: usize) -> Vec<Layout> {
     let mut layouts: Vec<Layout> = Vec::new();
     for hypothesis in found {
-        let centred = |layout: &Layout| with_nodes(*layout, [NODES[0], NODES[0]]);
+        let centred = |layout: &Layout| layout.with_nodes([NODES[0], NODES[0]]);
         if layouts.iter().all(|layout| centred(layout) != centred(&hypothesis.layout)) {
             layouts.push(hypothesis.layout);
         }
@@ -249,28 +244,21 @@ fn first_layouts(found: &[Hypothesis], count: usize) -> Vec<Layout> {
     layouts
 }
 
-/// The nearest of these lobes with these layouts.
-fn among(
+/// Each of these lobes with each of these layouts.
+fn with_lobes(
     lobes: &[Truth],
     layouts: &[Layout],
     size: [usize; 2],
     sample: &Sample,
-) -> Option<Hypothesis> {
+) -> Vec<Hypothesis> {
     let of = |&lobe: &Truth| with_layouts(lobe, layouts, size, sample, &NUMBERS);
-    let all: Vec<Hypothesis> = lobes.iter().flat_map(of).collect();
-    nearest(&all).cloned()
-}
-
-fn with_nodes(layout: Layout, [nov, roughness]: [Nodes; 2]) -> Layout {
-    let of = |spec: AxisSpec, nodes| AxisSpec { nodes, ..spec };
-    let (nov, roughness) = (of(layout.nov(), nov), of(layout.roughness(), roughness));
-    Layout::of(nov, roughness, layout.is_transposed())
+    lobes.iter().flat_map(of).collect()
 }
 
 /// The layout with every pair of nodes.
 pub fn around(layout: Layout) -> Vec<Layout> {
     let pairs = NODES.iter().flat_map(|&nov| NODES.iter().map(move |&roughness| [nov, roughness]));
-    pairs.map(|pair| with_nodes(layout, pair)).collect()
+    pairs.map(|pair| layout.with_nodes(pair)).collect()
 }
 
 /// Of hypotheses that fit as well as the nearest the first in the order of [`NODES`]: centres are

@@ -52,6 +52,13 @@ impl Layout {
         if self.is_transposed() { self.x } else { self.y }
     }
 
+    /// The same axes with these nodes of n·v and of roughness.
+    pub fn with_nodes(&self, [nov, roughness]: [Nodes; 2]) -> Self {
+        let of = |spec: AxisSpec, nodes| AxisSpec { nodes, ..spec };
+        let (nov, roughness) = (of(self.nov(), nov), of(self.roughness(), roughness));
+        Layout::of(nov, roughness, self.is_transposed())
+    }
+
     /// The axes of n·v and of roughness in their places.
     pub fn of(nov: AxisSpec, roughness: AxisSpec, transposed: bool) -> Self {
         match transposed {

@@ -6,6 +6,7 @@ use super::decision::Decision;
 use super::errors::Errors;
 use super::fault::Fault;
 use crate::brdf::Microfacet;
+use crate::table::precision::Precision;
 use serde::Serialize;
 
 /// Everything that is found out about a table.
@@ -54,9 +55,9 @@ pub struct FileFacts {
     /// Columns, rows and slices.
     pub size: [usize; 3],
     /// The storage of its numbers.
-    pub storage: String,
+    pub storage: Precision,
     /// The steps on which they lie.
-    pub steps: String,
+    pub steps: Precision,
     /// What else it says.
     pub notes: Vec<String>,
     /// Its channels by their values.

@@ -211,8 +211,8 @@ fn report_of_file(name: &str, table: &Foreign) -> Report {
         name: name.into(),
         container: table.container,
         size: table.size,
-        storage: table.storage.to_string(),
-        steps: quantisation(table).to_string(),
+        storage: table.storage,
+        steps: quantisation(table),
         notes,
         channels,
     };
@@ -256,7 +256,7 @@ fn describe(report: &mut Report, table: &Foreign, identity: Identity) -> Result<
         found.own,
         (offsets, sampler.as_ref()),
     );
-    let numbers = quantisation(table);
+    let numbers = report.file.steps;
     report.faults.extend(fault::of_storage(table, numbers, decoding));
     report.faults.extend(fault::of_layout(&found.layout, &decisions));
     for (place, channel) in channels.iter().enumerate() {

@@ -132,8 +132,8 @@ impl Quantity {
     }
 }
 
-/// The mean of the smallest differences.
-fn distance(values: &[f64], truth: &[Values], number: Quantity) -> f64 {
+/// The mean of the smallest differences of values from a number of ours.
+pub fn distance(values: &[f64], truth: &[Values], number: Quantity) -> f64 {
     let difference = |(value, truth): (&f64, &Values)| {
         let difference = (value - number.value(truth)).abs();
         if difference.is_nan() { f64::INFINITY } else { difference }

@@ -201,6 +201,16 @@ const CENTRED: &str = "nov,linear,centres";
 const LATE: &str = "roughness,linear,offset=1.5,flip";
 const CMGEN: Option<&str> = Some("hammersley,n=1024,frame=cos");
 
+const CMGEN_EXR: Told = Told {
+    arguments: "cmgen.exr",
+    x: CENTRED,
+    y: LATE,
+    channels: &["R: a", "G: b", "B: 0"],
+    sampler: CMGEN,
+    faults: &["shifted-nodes"],
+    undecided: &[],
+};
+
 const TOLD: [Told; 12] = [
     Told {
         arguments: "three.js",
@@ -239,70 +249,24 @@ const TOLD: [Told; 12] = [
         faults: &["srgb-encoded", "8-bit"],
         undecided: &["nodes of nov", "nodes of roughness"],
     },
-    Told {
-        arguments: "cmgen.exr",
-        x: CENTRED,
-        y: LATE,
-        channels: &["R: a", "G: b", "B: 0"],
-        sampler: CMGEN,
-        faults: &["shifted-nodes"],
-        undecided: &[],
-    },
-    Told {
-        arguments: "cmgen.dds",
-        x: CENTRED,
-        y: LATE,
-        channels: &["R: a", "G: b", "B: 0", "A: 1"],
-        sampler: CMGEN,
-        faults: &["shifted-nodes"],
-        undecided: &[],
-    },
+    CMGEN_EXR,
+    Told { arguments: "cmgen.dds", channels: &["R: a", "G: b", "B: 0", "A: 1"], ..CMGEN_EXR },
     Told {
         arguments: "cmgen.h",
-        x: CENTRED,
         // The first row of an array is the bottom one there.
         y: "roughness,linear,offset=1.5",
         channels: &["R: a", "G: b"],
-        sampler: CMGEN,
-        faults: &["shifted-nodes"],
-        undecided: &[],
+        ..CMGEN_EXR
     },
     Told {
         arguments: "cmgen.png",
-        x: CENTRED,
-        y: LATE,
-        channels: &["R: a", "G: b", "B: 0"],
         sampler: None,
         faults: &["8-bit", "shifted-nodes"],
-        undecided: &[],
+        ..CMGEN_EXR
     },
-    Told {
-        arguments: "cmgen_32.dds",
-        x: CENTRED,
-        y: LATE,
-        channels: &["R: a", "G: b", "B: 0", "A: 1"],
-        sampler: CMGEN,
-        faults: &["shifted-nodes"],
-        undecided: &[],
-    },
-    Told {
-        arguments: "cmgen_128.exr",
-        x: CENTRED,
-        y: LATE,
-        channels: &["R: b", "G: e", "B: 0"],
-        sampler: CMGEN,
-        faults: &["shifted-nodes"],
-        undecided: &[],
-    },
-    Told {
-        arguments: "cmgen_cloth.exr",
-        x: CENTRED,
-        y: LATE,
-        channels: &["R: b", "G: e", "B: charlie"],
-        sampler: CMGEN,
-        faults: &["shifted-nodes"],
-        undecided: &[],
-    },
+    Told { arguments: "cmgen_32.dds", channels: &["R: a", "G: b", "B: 0", "A: 1"], ..CMGEN_EXR },
+    Told { arguments: "cmgen_128.exr", channels: &["R: b", "G: e", "B: 0"], ..CMGEN_EXR },
+    Told { arguments: "cmgen_cloth.exr", channels: &["R: b", "G: e", "B: charlie"], ..CMGEN_EXR },
     Told {
         arguments: "ltc.js --array LTC_MAT_2",
         x: "roughness,linear,edges",
