@@ -27,6 +27,13 @@ mod temporary;
 mod verify;
 mod watched;
 
+// Readers of others' text, for tests with hostile files.
+#[cfg(feature = "compare")]
+#[doc(hidden)]
+pub use chart::draw as draw_study;
+#[doc(hidden)]
+pub use config::count as count_tables;
+
 use crate::error::{Complaint, Error, ExitCode, Result};
 use clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};

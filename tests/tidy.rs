@@ -14,7 +14,8 @@ fn files(folder: &str) -> Vec<(String, String)> {
     fn walk(folder: &Path, found: &mut Vec<PathBuf>) {
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
-            let foreign = path.ends_with("node_modules") || path.ends_with("foreign/target");
+            let others = ["node_modules", "foreign/target", "fuzz/target", "hostile/corpus"];
+            let foreign = others.iter().any(|other| path.ends_with(other));
             match path.is_dir() {
                 _ if foreign => (),
                 true => walk(&path, found),

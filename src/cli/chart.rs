@@ -191,6 +191,20 @@ impl Devices {
     }
 }
 
+/// Drawings, and pages with their extensions, by their names.
+type Files = (Vec<(&'static str, Drawing)>, Vec<(&'static str, String)>);
+
+/// Writes drawings and pages.
+fn write_files(folder: &str, (drawings, pages): &Files) -> Result<()> {
+    for (name, drawing) in drawings {
+        write_drawing(folder, name, drawing)?;
+    }
+    for (name, page) in pages {
+        output::write(&format!("{folder}/{name}"), page.as_bytes())?;
+    }
+    Ok(())
+}
+
 /// Writes a drawing as `name`.svg and `name`.png, the latter with twice the pixels, for sharp
 /// screens.
 fn write_drawing(folder: &str, name: &str, drawing: &Drawing) -> Result<()> {
@@ -199,18 +213,30 @@ fn write_drawing(folder: &str, name: &str, drawing: &Drawing) -> Result<()> {
 }
 
 /// Reads what [`StudyArgs::saved`] wrote.
-fn read_study<T: DeserializeOwned>(path: &str) -> Result<T> {
-    let text = fs::read_to_string(path).map_err(Error::io(
-        "read",
-        path,
-        "name the .json of an earlier run",
-    ))?;
-    serde_json::from_str(&text).map_err(|error| {
-        Error::bad_input(
-            path,
-            "measurements that this command has saved",
-            error.to_string(),
-            "measure anew",
-        )
+fn read_study<T: DeserializeOwned>(path: &str) -> Result<Saved<T>> {
+    let cure = "name the .json of an earlier run";
+    study(path, &fs::read(path).map_err(Error::io("read", path, cure))?)
+}
+
+/// The measurements with these bytes at `path`.
+fn study<T: DeserializeOwned>(path: &str, bytes: &[u8]) -> Result<Saved<T>> {
+    serde_json::from_slice(bytes).map_err(|error| {
+        let expected = "measurements that this command has saved";
+        Error::bad_input(path, expected, error.to_string(), "measure anew")
     })
+}
+
+/// Draws the measurements of either study with these bytes, without a disk.
+#[doc(hidden)]
+pub fn draw(bytes: &[u8]) -> Result<()> {
+    let path = "a study";
+    let (drawings, _) = match study(path, bytes) {
+        Ok(saved) => stability::files(path, &saved)?,
+        Err(_) => speed::files(&study(path, bytes)?),
+    };
+    for (_, drawing) in drawings {
+        drawing.to_svg()?;
+        drawing.to_picture(1.0)?;
+    }
+    Ok(())
 }

@@ -19,20 +19,21 @@ struct Config {
 pub fn read(path: &str) -> Result<Vec<Job>> {
     let io = Error::io("read", path, "name a TOML file that can be read");
     let size = std::fs::metadata(path).map_err(&io)?.len();
+    if size > LARGEST {
+        let (expected, got) = ("a configuration of at most 1 MiB", format!("{size} bytes"));
+        return Err(Error::bad_input(path, expected, got, "name a TOML file"));
+    }
+    jobs(path, &std::fs::read(path).map_err(&io)?)
+}
+
+/// The jobs of a configuration with these bytes at `path`.
+fn jobs(path: &str, bytes: &[u8]) -> Result<Vec<Job>> {
     let wrong =
         |expected: &str, got: String, cure: &str| Error::bad_input(path, expected, got, cure);
-    if size > LARGEST {
-        return Err(wrong(
-            "a configuration of at most 1 MiB",
-            format!("{size} bytes"),
-            "name a TOML file",
-        ));
-    }
-    let bytes = std::fs::read(path).map_err(&io)?;
-    let text = String::from_utf8(bytes)
+    let text = std::str::from_utf8(bytes)
         .map_err(|_| wrong("TOML", "bytes that are not UTF-8".into(), "name a TOML file"))?;
     let keys = "give the flags of 'splitsum bake --help' without the dashes, and values as there";
-    let config: Config = toml::from_str(&text).map_err(|error| {
+    let config: Config = toml::from_str(text).map_err(|error| {
         wrong("[[table]] entries", format!("\n{}", error.to_string().trim_end()), keys)
     })?;
     if config.table.is_empty() {
@@ -59,6 +60,12 @@ pub fn read(path: &str) -> Result<Vec<Job>> {
         jobs.push(job);
     }
     Ok(jobs)
+}
+
+/// The number of tables in a configuration with these bytes, without a disk.
+#[doc(hidden)]
+pub fn count(bytes: &[u8]) -> Result<usize> {
+    jobs("a configuration", bytes).map(|jobs| jobs.len())
 }
 
 fn in_table(name: &str, error: Error) -> Error {

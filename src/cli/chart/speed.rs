@@ -1,11 +1,11 @@
 //! `splitsum chart speed`
 
-use super::{Devices, Saved, StudyArgs, write_drawing};
+use super::{Devices, Files, Saved, StudyArgs, write_files};
 use crate::brdf::Microfacet;
 use crate::choice::Choice;
 use crate::cli::choices::LobeArgs;
+use crate::cli::print;
 use crate::cli::progress::Progress;
-use crate::cli::{output, print};
 use crate::compare::chart::lookup as lookup_chart;
 use crate::compare::chart::size as size_chart;
 use crate::compare::chart::speed::{Against, chart};
@@ -33,7 +33,7 @@ pub struct SpeedArgs {
 }
 
 #[derive(Serialize, Deserialize)]
-struct Measured {
+pub struct Measured {
     speed: Speed,
     lookup: Vec<Reading>,
     /// Studies of earlier versions have none.
@@ -68,23 +68,28 @@ pub fn run(arguments: &SpeedArgs) -> Result<()> {
     let folder = study.folder(&FILES)?;
     let path = format!("{folder}/speed.json");
     let saved = study.saved(&path, |devices, progress| measure(plan, devices, progress))?;
-    let Saved { machine, measured: Measured { speed, lookup, nets, size }, .. } = &saved;
+    write_files(&folder, &files(&saved))?;
+    print(&summary(&saved.measured.speed, &saved.machine))
+}
+
+/// The drawings, the tables and the page.
+pub fn files(saved: &Saved<Measured>) -> Files {
+    let Saved { machine, measured: Measured { speed, lookup, nets, size }, .. } = saved;
     let lobe = speed.plan.lobe;
-    write_drawing(&folder, "speed", &chart(speed, machine, Against::Time))?;
-    write_drawing(&folder, "evaluations", &chart(speed, machine, Against::Evaluations))?;
-    write_drawing(&folder, "lookup", &lookup_chart::chart(lookup, nets, lobe, machine))?;
-    write_drawing(&folder, "size", &size_chart::chart(size, lobe, machine))?;
-    let tables = [
-        ("speed", speed.to_csv()),
-        ("lookup", lookup::to_csv(lookup)),
-        ("nets", layer::to_csv(nets)),
-        ("size", size::to_csv(size)),
+    let drawings = vec![
+        ("speed", chart(speed, machine, Against::Time)),
+        ("evaluations", chart(speed, machine, Against::Evaluations)),
+        ("lookup", lookup_chart::chart(lookup, nets, lobe, machine)),
+        ("size", size_chart::chart(size, lobe, machine)),
     ];
-    for (name, csv) in tables {
-        output::write(&format!("{folder}/{name}.csv"), csv.as_bytes())?;
-    }
-    output::write(&format!("{folder}/speed.md"), page(&saved).as_bytes())?;
-    print(&summary(speed, machine))
+    let pages = vec![
+        ("speed.csv", speed.to_csv()),
+        ("lookup.csv", lookup::to_csv(lookup)),
+        ("nets.csv", layer::to_csv(nets)),
+        ("size.csv", size::to_csv(size)),
+        ("speed.md", page(saved)),
+    ];
+    (drawings, pages)
 }
 
 /// The pictures, each with what a reader would read off it.

@@ -1,7 +1,7 @@
 //! `splitsum chart stability`
 
-use super::{Saved, StudyArgs, write_drawing};
-use crate::cli::{output, print};
+use super::{Files, Saved, StudyArgs, write_files};
+use crate::cli::print;
 use crate::compare::chart::stability::chart;
 use crate::compare::study::Machine;
 use crate::compare::study::stability::{Family, Stability, cases, measure};
@@ -15,7 +15,7 @@ pub struct StabilityArgs {
 }
 
 #[derive(Serialize, Deserialize)]
-struct Measured {
+pub struct Measured {
     stability: Stability,
 }
 
@@ -34,24 +34,26 @@ pub fn run(StabilityArgs { study }: &StabilityArgs) -> Result<()> {
         pictures.chain(["stability.json".into(), "stability.md".into()]).collect();
     let folder = study.folder(&files)?;
     let size = if study.quick { [24, 16] } else { [56, 40] };
-    let Saved { machine, measured: Measured { stability }, .. } =
-        study.saved(&format!("{folder}/stability.json"), |devices, progress| {
-            let stability = measure(size, &devices.open()?, &|share| progress.reach(share))?;
-            Ok(Measured { stability })
-        })?;
+    let saved = study.saved(&format!("{folder}/stability.json"), |devices, progress| {
+        let stability = measure(size, &devices.open()?, &|share| progress.reach(share))?;
+        Ok(Measured { stability })
+    })?;
+    let source = study.from.as_deref().unwrap_or_default();
+    write_files(&folder, &self::files(source, &saved)?)?;
+    print(&saved.measured.stability.summary())
+}
+
+/// The drawings and the page of what `source` holds.
+pub fn files(source: &str, saved: &Saved<Measured>) -> Result<Files> {
+    let Saved { machine, measured: Measured { stability }, .. } = saved;
     // What is read from a file may be anything.
     if !stability.is_whole() {
-        let (file, expected) =
-            (study.from.as_deref().unwrap_or_default(), "maps with an error for each point");
-        return Err(Error::bad_input(file, expected, "others", "measure anew"));
+        let expected = "maps with an error for each point";
+        return Err(Error::bad_input(source, expected, "others", "measure anew"));
     }
-    for (family, name, title) in CHARTS {
-        if let Some(drawing) = chart(&stability, family, title, &machine) {
-            write_drawing(&folder, name, &drawing)?;
-        }
-    }
-    output::write(&format!("{folder}/stability.md"), page(&stability, &machine).as_bytes())?;
-    print(&stability.summary())
+    let drawn = |(family, name, title)| Some((name, chart(stability, family, title, machine)?));
+    let drawings = CHARTS.into_iter().filter_map(drawn).collect();
+    Ok((drawings, vec![("stability.md", page(stability, machine))]))
 }
 
 /// The pictures with what goes wrong, why, and what is done instead.

@@ -1,0 +1,1 @@
+export const t = "data:application/octet-stream;base64,AAAAAAAAgD0AAAA+AABAPgAAgD4AAKA+AADAPgAA4D4AAAA/AAAQPwAAID8AADA/AABAPwAAUD8AAGA/AABwPw==";
