@@ -58,14 +58,11 @@ fn supervise(target: &'static Target) -> Result<(), Failed> {
         return Ok(());
     }
     let why = String::from_utf8_lossy(&output.stderr);
-    Err(format!("{}: {}; {}", output.status, why, kept(target)).into())
+    let input = input_file(target);
+    Err(format!("{}: {why}; the input is {}", output.status, input.display()).into())
 }
 
-/// The input under way, in a file that is left where a reader fails.
-fn kept(target: &Target) -> String {
-    format!("the input is {}", input_file(target).display())
-}
-
+/// The file of the input under way, which is left where a reader fails.
 fn input_file(target: &Target) -> PathBuf {
     std::env::temp_dir().join(format!("splitsum-hostile-{}", target.name))
 }

@@ -50,7 +50,7 @@ impl<'a> Mutator<'a> {
 
     fn mutate(&mut self, input: &mut Vec<u8>) {
         let at = self.place(input.len());
-        let length = 1 + self.below(16.min(input.len() - at.min(input.len()) + 1));
+        let length = 1 + self.below(16.min(input.len() - at + 1));
         let range = at..(at + length).min(input.len());
         match self.below(10) {
             // A bit, a byte, a step of a number.

@@ -34,20 +34,25 @@ fn container(bytes: &[u8]) {
 
 /// A line with a layout, and texels.
 fn raw(bytes: &[u8]) {
-    let end = bytes.iter().position(|&byte| byte == b'\n').unwrap_or(bytes.len());
-    let (line, texels) = bytes.split_at(end);
+    let (line, texels) = first_line(bytes);
     let layout = std::str::from_utf8(line).ok().and_then(|words| words.parse().ok());
     if let Some(layout) = layout {
         table(&texels[1.min(texels.len())..], &Reading { raw: Some(layout), array: None });
     }
 }
 
+/// The first line, and what begins with its end.
+fn first_line(bytes: &[u8]) -> (&[u8], &[u8]) {
+    let end = bytes.iter().position(|&byte| byte == b'\n').unwrap_or(bytes.len());
+    bytes.split_at(end)
+}
+
 /// Source code, whose first line names an array where it begins with a colon.
 fn source(bytes: &[u8]) {
     let Some(named) = bytes.strip_prefix(b":") else { return container(bytes) };
-    let end = named.iter().position(|&byte| byte == b'\n').unwrap_or(named.len());
-    let array = String::from_utf8_lossy(&named[..end]).into_owned();
-    table(&named[end..], &Reading { raw: None, array: Some(array) });
+    let (line, code) = first_line(named);
+    let array = String::from_utf8_lossy(line).into_owned();
+    table(code, &Reading { raw: None, array: Some(array) });
 }
 
 /// A table that is read has as many numbers as it says.
