@@ -298,3 +298,60 @@ fn what_is_no_table_is_unknown() {
         assert!(report.fails());
     }
 }
+
+/// A table as its words of `splitsum bake` make it, in halves.
+fn baked(words: &str) -> Foreign {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("t.npy");
+    let arguments = words.split(' ').chain(["--backend", "cpu", "-q", "-o"]);
+    let program = std::process::Command::new(env!("CARGO_BIN_EXE_splitsum"))
+        .arg("bake")
+        .args(arguments)
+        .arg(&file)
+        .output()
+        .unwrap();
+    assert!(program.status.success(), "{words}: {}", String::from_utf8_lossy(&program.stderr));
+    Foreign::read(words, &std::fs::read(&file).unwrap(), &Default::default()).unwrap()
+}
+
+#[test]
+fn glass_exact_fresnel_and_energy_are_told_with_their_numbers() {
+    let mut random = Random(5);
+    for words in [
+        "--model ggx --masking height-correlated --fresnel dielectric:1.45 --channels r",
+        "--model ggx --masking separable --fresnel conductor:0.14,3.697 --channels r",
+        "--model ggx --masking height-correlated --fresnel schlick:4.4 --channels a,b",
+        "--lut glass --model ggx --masking height-correlated --channels rt --side outside \
+         --ior 1.6",
+        "--lut glass --model ggx --masking separable --channels rt --side inside --ior 1.33",
+        "--lut glass --model ggx --masking height-correlated --channels total --side outside \
+         --ior 1.7",
+        "--lut energy --model ggx --masking height-correlated --channels kulla-conty",
+        "--lut energy --model ggx --masking height-correlated --channels turquin",
+        "--lut energy --model ggx --masking height-correlated --channels split --f0 0.05",
+        "--lut energy --model ggx --masking separable --channels split --ior 1.8",
+        "--lut energy --model beckmann --masking height-correlated --channels kulla-conty",
+        "--lut glass --model ggx --masking height-correlated --channels kulla-conty --side inside \
+         --ior 2.1",
+        "--lut glass --model ggx --masking separable --channels turquin --side outside --ior 1.9",
+    ] {
+        let axes = one_of(
+            &mut random,
+            &[
+                "--x nov,linear,centres --y roughness,linear,centres",
+                "--x nov,sqrt,edges --y alpha,linear,edges",
+                "--x roughness,sqrt,centres,flip --y nov,linear,edges,flip",
+            ],
+        );
+        let report =
+            verify("t", &baked(&format!("{words} --size 24x20 {axes}")), &Demands::default());
+        let report = report.unwrap();
+        assert_eq!(report.status, Status::Known, "{words}");
+        let command = report.convention.as_ref().and_then(|convention| convention.command.clone());
+        let expected = format!("splitsum bake {words} --size 24x20 {axes} --precision f16");
+        // The reader of npy knows the storage of its own numbers.
+        assert!(command.as_ref().is_some_and(|c| c.starts_with(&expected)), "{words}: {command:?}");
+        assert!(report.faults.is_empty(), "{words}: {:?}", report.faults);
+        assert!(report.channels.iter().all(|c| c.stored.largest < 1e-3), "{words}");
+    }
+}

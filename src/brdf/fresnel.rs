@@ -17,7 +17,7 @@ pub use conductor::{Conductor, conductor_reflectance};
 pub use dielectric::{
     Dielectric, SMALLEST_ROOT, average_dielectric, dielectric_reflectance, reflectance_from,
 };
-pub use metals::metal;
+pub use metals::{metal, names as metal_names};
 pub use schlick::{Schlick, average_schlick, schlick_complement, schlick_weight, schlick_weights};
 pub use schlick_f82::{SchlickF82, schlick_f82_weights};
 pub use schlick_power::{SchlickPower, schlick_power_weights};

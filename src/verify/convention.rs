@@ -4,9 +4,11 @@ use super::decoding::Decoding;
 use super::fingerprint::Fingerprint;
 use super::layout::Layout;
 use super::meaning::Meaning;
+use super::sample::Quantity;
 use crate::brdf::Fresnel;
 use crate::foreign::Foreign;
 use crate::integrate::Integrand;
+use crate::lut::{Glass, GlassChannels, Lut, Packing};
 use crate::request::Request;
 use crate::table::axis::{AxisSpec, Nodes};
 use crate::table::precision::Precision;
@@ -118,14 +120,28 @@ fn flags(
     meanings: &[Meaning],
     own: Integrand,
 ) -> Option<(String, String)> {
-    let Integrand::Specular(lobe, _) = own else { return None };
+    let storage = storage(table, decoding)?;
+    if let Some(family) = family(meanings) {
+        return Some((family, storage));
+    }
+    let in_list = |meaning: &Meaning| match meaning {
+        Meaning::Number { truth, .. } => matches!(truth.lut, Lut::Dfg(_) | Lut::Diffuse(_)),
+        _ => true,
+    };
+    let (Integrand::Specular(lobe, fresnel), true) = (own, meanings.iter().all(in_list)) else {
+        return None;
+    };
     let tinted = |meaning: &Meaning| match meaning {
         Meaning::Number { truth, .. } => {
             matches!(truth.lut.integrand(), Integrand::Specular(_, Fresnel::SchlickF82))
         }
         _ => false,
     };
-    let fresnel = if meanings.iter().any(tinted) { " --fresnel f82" } else { "" };
+    let fresnel = match fresnel {
+        Fresnel::Schlick if meanings.iter().any(tinted) => " --fresnel f82".into(),
+        Fresnel::Schlick => String::new(),
+        other => format!(" --fresnel {other}"),
+    };
     let mut terms: Vec<String> = Vec::new();
     for meaning in meanings {
         let term = match meaning {
@@ -140,6 +156,57 @@ fn flags(
             terms.pop();
         }
     }
+    let flags = format!(
+        "--model {} --masking {}{fresnel} --channels {}",
+        lobe.ndf,
+        lobe.masking,
+        terms.join(",")
+    );
+    Some((flags, storage))
+}
+
+/// A table of another family than split sums as flags; none where a channel is no number of it as
+/// it is.
+fn family(meanings: &[Meaning]) -> Option<String> {
+    let number = |meaning: &Meaning| match *meaning {
+        Meaning::Number { truth, quantity, scale: 1.0, offset: 0.0 } => Some((truth.lut, quantity)),
+        _ => None,
+    };
+    let filled = |place: usize, meaning: &Meaning| match meaning {
+        Meaning::Constant(value) => *value == if place == 3 { 1.0 } else { 0.0 },
+        _ => false,
+    };
+    let count =
+        meanings.iter().enumerate().rposition(|(place, meaning)| !filled(place, meaning))?;
+    let numbers: Vec<(Lut, Quantity)> =
+        meanings[..=count].iter().map(number).collect::<Option<_>>()?;
+    let lut = match (numbers[0], numbers.len()) {
+        // One of a pair has a word of its own.
+        ((Lut::Glass(glass), Quantity::Channel(channel)), 1)
+            if glass.channels() == GlassChannels::Rt =>
+        {
+            let word = [GlassChannels::Reflect, GlassChannels::Transmit][channel.min(1)];
+            Lut::Glass(Glass::new(glass.interface(), word))
+        }
+        ((lut @ (Lut::Glass(_) | Lut::Energy(_)), _), count) => {
+            let in_order = |(place, &(of, quantity)): (usize, &(Lut, Quantity))| {
+                of == lut && quantity == Quantity::Channel(place)
+            };
+            let all = count == lut.channels().len() && numbers.iter().enumerate().all(in_order);
+            all.then_some(lut)?
+        }
+        _ => return None,
+    };
+    let number = match (lut.f0(), lut.ior()) {
+        (Some(f0), _) => format!(" --f0 {}", short(f0)),
+        (_, Some(ior)) => format!(" --ior {}", short(ior)),
+        _ => String::new(),
+    };
+    Some(format!("{}{number}", Packing::from(lut).flags()))
+}
+
+/// The storage of a file as flags; none where ours have no words for it.
+fn storage(table: &Foreign, decoding: Decoding) -> Option<String> {
     let precision = match decoding {
         Decoding::Linear => table.storage,
         Decoding::Srgb => Precision::Srgb8,
@@ -155,13 +222,7 @@ fn flags(
         "raw" => "raw",
         _ => "txt",
     };
-    let flags = format!(
-        "--model {} --masking {}{fresnel} --channels {}",
-        lobe.ndf,
-        lobe.masking,
-        terms.join(",")
-    );
-    Some((flags, format!("--precision {precision} --format {format}")))
+    Some(format!("--precision {precision} --format {format}"))
 }
 
 /// Offsets in words, as in "n.v 0.499, roughness 1.486".

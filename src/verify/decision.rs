@@ -1,13 +1,14 @@
 //! What the data decide: in each dimension the best choice, against the best of all others.
 
 use super::decoding::Decoding;
-use super::sample::{FLOOR, Quantity};
+use super::sample::{FLOOR, Packing, Quantity};
 use super::search::Hypothesis;
 use crate::integrate::Integrand;
 use crate::lut::Lut;
 use crate::table::axis::{AxisSpec, Mapping, Nodes};
 use crate::units::short;
 use serde::Serialize;
+use std::collections::HashSet;
 
 /// A choice is decided where every other is so many times as far off.
 pub const DECIDED: f64 = 1.3;
@@ -101,7 +102,10 @@ pub fn word(lut: &Lut, quantity: Quantity) -> String {
     };
     match quantity {
         Quantity::Channel(channel) => name(channel),
-        Quantity::Complement(channel) => format!("1-{}", name(channel)),
+        Quantity::Complement(channel) => {
+            let name = name(channel);
+            name.strip_prefix("1-").map_or_else(|| format!("1-{name}"), str::to_owned)
+        }
     }
 }
 
@@ -116,17 +120,21 @@ pub fn decide(
         let mut others: Vec<(String, f64)> = Vec::new();
         for hypothesis in hypotheses {
             let other = choice(hypothesis);
-            if other == choice_of {
+            let of_both = dimension == "channels" && agree(&chosen.packing, &hypothesis.packing);
+            if other == choice_of || of_both {
                 continue;
             }
-            match others.iter_mut().find(|(known, _)| *known == other) {
-                Some((_, distance)) => *distance = distance.min(hypothesis.distance),
-                None => others.push((other, hypothesis.distance)),
-            }
+            others.push((other, hypothesis.distance));
         }
-        decision(dimension, choice_of, chosen.distance, others)
+        among(dimension, choice_of, chosen.distance, others)
     };
     dimensions.iter().map(decision).collect()
+}
+
+/// Whether two pairs of channels can both be right.
+fn agree(one: &Packing, other: &Packing) -> bool {
+    let differ = |a: &(usize, Quantity), b: &(usize, Quantity)| (a.0 == b.0) != (a.1 == b.1);
+    !one.iter().any(|a| other.iter().any(|b| differ(a, b)))
 }
 
 /// Whether a dimension is decided.
@@ -138,16 +146,19 @@ pub fn is_decided(decisions: &[Decision], dimension: &str) -> bool {
 pub fn decoding(chosen: (Decoding, f64), all: &[(Decoding, f64)]) -> Decision {
     let others = all.iter().filter(|(other, _)| *other != chosen.0);
     let others = others.map(|&(decoding, distance)| (decoding.to_string(), distance)).collect();
-    decision("encoding", chosen.0.to_string(), chosen.1, others)
+    among("encoding", chosen.0.to_string(), chosen.1, others)
 }
 
-fn decision(
+/// The decision in a dimension: the choice and its distance against all others and theirs.
+pub fn among(
     dimension: &'static str,
     choice: String,
     distance: f64,
     mut others: Vec<(String, f64)>,
 ) -> Decision {
     others.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let mut known = HashSet::new();
+    others.retain(|(other, _)| known.insert(other.clone()));
     let ratio = |other: f64| (other + FLOOR) / (distance + FLOOR);
     let next = others.first().map_or(f64::INFINITY, |&(_, other)| ratio(other));
     let tied = others.into_iter().filter(|&(_, other)| ratio(other) < DECIDED);

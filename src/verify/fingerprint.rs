@@ -7,12 +7,14 @@ use super::layout::Layout;
 use super::sample::Packing;
 use super::search::points;
 use super::truth::{Truth, Values};
+use crate::brdf::Fresnel;
 use crate::brdf::Ndf;
 use crate::brdf::fresnel::Schlick;
 use crate::choice::Choice;
 use crate::foreign::Foreign;
 use crate::integrate::Integrand;
 use crate::integrate::hammersley::{Frame, Hammersley, estimate};
+use crate::lut::Lut;
 use rayon::prelude::*;
 
 /// Counts of points that engines use.
@@ -56,7 +58,11 @@ pub struct Suspect<'a> {
 
 /// The sampler of a table with one of these layouts; none where none repeats it.
 pub fn fingerprint(suspect: Suspect, layouts: &[Layout]) -> Option<Fingerprint> {
-    let Integrand::Specular(lobe, _) = suspect.truth.lut.integrand() else { return None };
+    let (Lut::Dfg(_), Integrand::Specular(lobe, Fresnel::Schlick)) =
+        (suspect.truth.lut, suspect.truth.lut.integrand())
+    else {
+        return None;
+    };
     if lobe.ndf != Ndf::Ggx {
         return None;
     }

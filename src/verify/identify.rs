@@ -1,26 +1,43 @@
 //! Which table of ours a foreign one is: coarse lobes find the layout, layouts the lobe, and more
 //! texels the nodes.
 
-use super::candidates::{NUMBERS, likely, sheen, split_sums, unlikely};
+use super::candidates::{likely, sheen, split_sums, unlikely};
 use super::channel::{Channel, Texels, channels};
 use super::decision::{self, Decision, decide};
 use super::decoding::Decoding;
+use super::family::number::{neighbours, parameter, tuned};
+use super::family::seek::seek;
+use super::family::{fine, is_split_sum, kind};
 use super::layout::{Layout, NODES};
+use super::refinement::{Refined, Refinement};
 use super::sample::{FLOOR, Quantity, Sample, distance};
-use super::search::{EveryLayout, Hypothesis, nearest, points, with_layouts};
+use super::search::{EveryLayout, Hypothesis, nearest, points, with_lobes};
+use super::surface::Surface;
 use super::truth::Truth;
+use crate::brdf::Fresnel;
 use crate::error::Result;
 use crate::foreign::Foreign;
+use crate::units::short;
 
 /// Texels along each axis that tell layouts apart.
 const FEW: usize = 12;
 
+/// Texels along each axis that tell the number that is a table's own.
+const SOME: usize = 20;
+
 /// Texels along each axis that tell nodes apart.
 pub const MANY: usize = 48;
 
-/// A table that is as near as this by the likely lobes is not sought by more, and by all but sheen
-/// not by sheen.
-const CLOSE: [f64; 3] = [0.004, 0.03, 0.0];
+/// A table that is as near as this by the likely lobes is not sought by more, by all but sheen not
+/// by sheen, and by all split sums not by other families.
+const CLOSE: [f64; 3] = [0.004, 0.015, 0.002];
+
+/// A split sum is one with another exponent of Schlick's approximation where that is so many times
+/// nearer: a number that is fitted suits noise too.
+const GAIN: f64 = 3.0;
+
+/// The last of them for tables of one channel.
+const CLOSE_ALONE: f64 = 0.001;
 
 /// The layouts with which lobes are told apart.
 const LAYOUTS: usize = 24;
@@ -65,9 +82,10 @@ pub fn identify(table: &Foreign, slice: usize) -> Result<Option<Identity>> {
     for (step, layouts_by) in [likely()?, unlikely()?, sheen()?].into_iter().enumerate() {
         lobes = split_sums(step == 2)?;
         for truth in layouts_by {
-            let every = EveryLayout::new(truth, size, &few[0]);
+            let surface = Surface::new(truth, true);
+            let every = EveryLayout::of_surface(&surface, size, &few[0], &NODES);
             for (found, sample) in found.iter_mut().zip(&few) {
-                found.extend(every.hypotheses(sample, &NUMBERS, false));
+                found.extend(every.hypotheses(sample, false));
             }
         }
         let of = |(found, sample): (&mut Vec<Hypothesis>, &Sample)| {
@@ -79,86 +97,99 @@ pub fn identify(table: &Foreign, slice: usize) -> Result<Option<Identity>> {
             break;
         }
     }
+    let (families, families_tried) = ask_families(&mut nearest_of, size, &few)?;
     let Some((k, _)) = first_by_distance(&nearest_of) else { return Ok(None) };
     let (k, encoding) = by_encoding(table, slice, &decodings, &nearest_of, k, &lists);
     let many = Sample::new(table, slice, decodings[k], &lists[k], MANY);
-    let search = Refinement { lobes: &lobes, size, few: &few[k], many: &many };
-    let Some(refined) = search.refined(nearest_of[k].truth) else { return Ok(None) };
-    let Refined { layout, every, nodes, by_nodes, lobe, by_lobe } = refined;
+    let some = Sample::new(table, slice, decodings[k], &lists[k], SOME);
+    let search = Refinement { lobes: &lobes, size, few: &few[k], some: &some, many: &many };
+    let refined = search.from(&nearest_of[k]);
+    let Some(Refined { layout, every, nodes, by_nodes, lobe, by_lobe }) = refined else {
+        return Ok(None);
+    };
     let mut decisions = vec![encoding];
+    decisions.extend(families[k].clone());
     decisions.extend(decide(&decision::LAYOUT, &layout, &every));
     decisions.extend(decide(&decision::NODES, &nodes, &by_nodes));
     decisions.extend(decide(&decision::LOBE, &lobe, &by_lobe));
+    let lobe = if is_split_sum(lobe.truth) { lobe } else { tuned(fine(lobe), size, &some) };
+    // Of an axis with one texel nothing is told.
+    let alone = if lobe.layout.is_transposed() { size[1] } else { size[0] } == 1;
+    decisions.retain(|decision| !alone || !decision.dimension.ends_with("of nov"));
+    decisions.extend(number(&lobe, size, &some));
     let channels = lists[k].clone();
     // Each with every pair of channels.
-    let tried =
-        found.iter().map(Vec::len).sum::<usize>() + every.len() + by_nodes.len() + by_lobe.len();
+    let tried = families_tried
+        + found.iter().map(Vec::len).sum::<usize>()
+        + every.len()
+        + by_nodes.len()
+        + by_lobe.len();
     Ok(Some(Identity { tried, decoding: decodings[k], channels, nearest: lobe, decisions }))
 }
 
-/// A lobe tells the layout, the layout the nodes, the nodes the lobe: until they agree.
-struct Refinement<'a> {
-    lobes: &'a [Truth],
+/// Puts other families in the place of split sums where they are nearer, and where those are not
+/// close: what is decided of that for each way to decode, and the number of hypotheses that were
+/// tried.
+fn ask_families(
+    nearest_of: &mut [Hypothesis],
     size: [usize; 2],
-    few: &'a Sample,
-    many: &'a Sample,
+    few: &[Sample],
+) -> Result<(Vec<Option<Decision>>, usize)> {
+    // One channel is much alike: (1-E)/E is close to 1-E at other nodes.
+    let close = if few.iter().all(|sample| sample.live() == 1) { CLOSE_ALONE } else { CLOSE[2] };
+    if nearest_of.iter().any(|nearest| nearest.distance < close) {
+        return Ok((vec![None; nearest_of.len()], 0));
+    }
+    // By values as they are, and as split sums have them.
+    let mut asked = vec![0];
+    asked.extend(first_by_distance(nearest_of).map(|(k, _)| k).filter(|&k| k > 0));
+    let samples: Vec<&Sample> = asked.iter().map(|&k| &few[k]).collect();
+    let found = seek(size, &samples)?;
+    let mut decisions = vec![None; nearest_of.len()];
+    for (k, others) in asked.into_iter().zip(found.nearest) {
+        decisions[k] = among(&mut nearest_of[k], others);
+    }
+    Ok((decisions, found.tried))
 }
 
-/// The nearest hypothesis of each step, and all that were tried there.
-struct Refined {
-    layout: Hypothesis,
-    every: Vec<Hypothesis>,
-    nodes: Hypothesis,
-    by_nodes: Vec<Hypothesis>,
-    lobe: Hypothesis,
-    by_lobe: Vec<Hypothesis>,
+/// Puts the nearest of other families in the place of a split sum where it is nearer.
+fn among(nearest: &mut Hypothesis, mut others: Vec<Hypothesis>) -> Option<Decision> {
+    others.retain(|other| !is_same_for_every_exponent(other));
+    // Another exponent that is no nearer than noise makes it is no rival.
+    let split_sum = nearest.clone();
+    let nearer = |other: &Hypothesis, gain: f64| {
+        let gain = if is_of_another_exponent(other.truth) { gain } else { 1.0 };
+        gain * (other.distance + FLOOR) < split_sum.distance + FLOOR
+    };
+    others.retain(|other| nearer(other, decision::DECIDED) || !is_of_another_exponent(other.truth));
+    if let Some(other) = others.iter().find(|other| nearer(other, GAIN)) {
+        *nearest = other.clone();
+    }
+    let family = |hypothesis: &Hypothesis| kind(&hypothesis.truth.lut);
+    let own = family(nearest);
+    let others = others.iter().chain([&split_sum]).filter(|other| family(other) != own);
+    let others = others.map(|other| (family(other), other.distance)).collect();
+    Some(decision::among("family", own, nearest.distance, others))
 }
 
-/// Lobes that are taken in turn at the most.
-const TURNS: usize = 4;
+/// Whether it is a split sum of another exponent of Schlick's approximation.
+fn is_of_another_exponent(truth: Truth) -> bool {
+    matches!(truth.lut.fresnel(), Some(Fresnel::SchlickPower(_)))
+}
 
-/// Nodes with which all lobes are tried: those of another lobe may lie a little off.
-const LIKELY_NODES: usize = 6;
+/// Whether it is one of its E alone.
+fn is_same_for_every_exponent(hypothesis: &Hypothesis) -> bool {
+    let varies = |quantity| matches!(quantity, Quantity::Channel(0 | 1));
+    is_of_another_exponent(hypothesis.truth)
+        && !hypothesis.packing.iter().any(|&(_, quantity)| varies(quantity))
+}
 
-impl Refinement<'_> {
-    fn refined(&self, first: Truth) -> Option<Refined> {
-        let mut truth = first;
-        let mut nearest_so_far: Option<Refined> = None;
-        for _ in 0..TURNS {
-            let refined = self.by(truth)?;
-            let next = refined.lobe.truth;
-            let nearer = |so_far: &Refined| refined.lobe.distance < so_far.lobe.distance;
-            let settled = next == truth;
-            if nearest_so_far.as_ref().is_none_or(nearer) || settled {
-                nearest_so_far = Some(refined);
-            }
-            if settled {
-                break;
-            }
-            truth = next;
-        }
-        nearest_so_far
-    }
-
-    /// One turn, with the layouts of this lobe.
-    fn by(&self, truth: Truth) -> Option<Refined> {
-        let Refinement { lobes, size, few, many } = *self;
-        let every = EveryLayout::new(truth, size, few).hypotheses(few, &NUMBERS, true);
-        let layout = nearest(&every)?.clone();
-        let by_nodes = with_layouts(truth, &around(layout.layout), size, many, &NUMBERS);
-        let best = nearest(&by_nodes)?;
-        let nodes = with_likely_nodes(best, &by_nodes).clone();
-        let mut sorted: Vec<&Hypothesis> = by_nodes.iter().collect();
-        sorted.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-        let mut layouts = vec![nodes.layout];
-        let others = sorted.iter().take(LIKELY_NODES).map(|other| other.layout);
-        layouts.extend(others.filter(|layout| *layout != nodes.layout));
-        let by_lobe = with_lobes(lobes, &layouts, size, many);
-        let lobe = nearest(&by_lobe)?;
-        // The same lobe with the nodes that are likelier.
-        let lobe = if lobe.truth == truth { nodes.clone() } else { lobe.clone() };
-        Some(Refined { layout, every, nodes, by_nodes, lobe, by_lobe })
-    }
+/// What is decided about the number that is a table's own.
+fn number(nearest: &Hypothesis, size: [usize; 2], sample: &Sample) -> Option<Decision> {
+    let (name, value, _) = parameter(&nearest.truth.lut)?;
+    let others = neighbours(nearest, size, sample);
+    let others = others.into_iter().map(|(other, distance)| (short(other), distance)).collect();
+    Some(decision::among(name, short(value), nearest.distance, others))
 }
 
 /// The nearest of hypotheses with its place.
@@ -242,35 +273,4 @@ fn first_layouts(found: &[Hypothesis], count: usize) -> Vec<Layout> {
         }
     }
     layouts
-}
-
-/// Each of these lobes with each of these layouts.
-fn with_lobes(
-    lobes: &[Truth],
-    layouts: &[Layout],
-    size: [usize; 2],
-    sample: &Sample,
-) -> Vec<Hypothesis> {
-    let of = |&lobe: &Truth| with_layouts(lobe, layouts, size, sample, &NUMBERS);
-    lobes.iter().flat_map(of).collect()
-}
-
-/// The layout with every pair of nodes.
-pub fn around(layout: Layout) -> Vec<Layout> {
-    let pairs = NODES.iter().flat_map(|&nov| NODES.iter().map(move |&roughness| [nov, roughness]));
-    pairs.map(|pair| layout.with_nodes(pair)).collect()
-}
-
-/// Of hypotheses that fit as well as the nearest the first in the order of [`NODES`]: centres are
-/// assumed where nothing speaks against them.
-fn with_likely_nodes<'a>(nearest: &'a Hypothesis, all: &'a [Hypothesis]) -> &'a Hypothesis {
-    let fits = |hypothesis: &&Hypothesis| {
-        hypothesis.distance + FLOOR < decision::DECIDED * (nearest.distance + FLOOR)
-    };
-    let both = |hypothesis: &&Hypothesis| {
-        [hypothesis.layout.nov(), hypothesis.layout.roughness()]
-            .iter()
-            .all(|spec| spec.nodes == NODES[0])
-    };
-    all.iter().filter(fits).find(both).unwrap_or(nearest)
 }

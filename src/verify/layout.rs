@@ -68,20 +68,20 @@ impl Layout {
     }
 }
 
-/// All hypotheses of an axis of n·v.
-pub fn cosines() -> Vec<AxisSpec> {
-    all(&COSINES)
+/// All hypotheses of an axis of n·v with these nodes.
+pub fn cosines(nodes: &[Nodes]) -> Vec<AxisSpec> {
+    all(&COSINES, nodes)
 }
 
-/// All hypotheses of an axis of roughness.
-pub fn roughnesses() -> Vec<AxisSpec> {
-    all(&ROUGHNESSES)
+/// All hypotheses of an axis of roughness with these nodes.
+pub fn roughnesses(nodes: &[Nodes]) -> Vec<AxisSpec> {
+    all(&ROUGHNESSES, nodes)
 }
 
-fn all(kinds: &[(Parameter, Mapping)]) -> Vec<AxisSpec> {
+fn all(kinds: &[(Parameter, Mapping)], nodes: &[Nodes]) -> Vec<AxisSpec> {
     let mut specs = Vec::new();
     for &(parameter, mapping) in kinds {
-        for nodes in NODES {
+        for &nodes in nodes {
             for flip in [false, true] {
                 specs.push(AxisSpec { mapping, nodes, flip, ..AxisSpec::of(parameter) });
             }

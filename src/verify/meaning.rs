@@ -109,6 +109,10 @@ impl Meaning {
             Meaning::Number { truth, quantity, scale, offset } => {
                 let word = match (&truth.lut, quantity) {
                     (Lut::Diffuse(diffuse), _) => diffuse.to_string(),
+                    // Their words are those of channels, and no terms of a list.
+                    (lut @ (Lut::Glass(_) | Lut::Energy(_)), _) => {
+                        super::decision::word(lut, *quantity)
+                    }
                     (lut, Quantity::Complement(_)) if lobe(lut.integrand()) == lobe(own) => {
                         return Some("1-e".into());
                     }

@@ -2,6 +2,7 @@
 
 use super::channel::{Channel, Idle, Texels};
 use super::decoding::Decoding;
+use super::family::{is_split_sum, numbers};
 use super::meaning::Meaning;
 use super::sample::{FLOOR, Quantity, trimmed_mean};
 use super::search::Hypothesis;
@@ -11,7 +12,7 @@ use crate::choice::Choice;
 use crate::error::Result;
 use crate::foreign::Foreign;
 use crate::integrate::Integrand;
-use crate::lut::{Dfg, DfgChannels, Lut};
+use crate::lut::{Dfg, DfgChannels, Glass, Lut};
 
 /// A channel that is farther off than this share of its spread is none of the table's.
 const FARTHEST: f64 = 0.03;
@@ -66,7 +67,7 @@ fn candidates(nearest: &Hypothesis) -> Result<Vec<Meaning>> {
     let tolerance = nearest.truth.tolerance;
     let plain =
         |lut: Lut, channel| Meaning::plain(Truth { lut, tolerance }, Quantity::Channel(channel));
-    let mut list = Vec::new();
+    let mut list = own(nearest.truth);
     if let Integrand::Specular(lobe, _) = nearest.truth.lut.integrand() {
         let own = Dfg::new(lobe, Fresnel::Schlick, DfgChannels::Every)?;
         list.extend([0, 1, 2].map(|channel| plain(Lut::Dfg(own), channel)));
@@ -83,6 +84,22 @@ fn candidates(nearest: &Hypothesis) -> Result<Vec<Meaning>> {
     list.extend(diffuse.map(|&diffuse| plain(Lut::Diffuse(diffuse), 0)));
     list.extend([Meaning::Nov, Meaning::Roughness]);
     Ok(list)
+}
+
+/// The numbers of a table that is no split sum, and of glass those of its other side.
+fn own(truth: Truth) -> Vec<Meaning> {
+    if is_split_sum(truth) {
+        return Vec::new();
+    }
+    let mut tables = vec![truth];
+    if let Lut::Glass(glass) = truth.lut {
+        let other = glass.interface().from(glass.interface().side().other());
+        tables.push(Truth { lut: Lut::Glass(Glass::new(other, glass.channels())), ..truth });
+    }
+    let of = |truth: Truth| {
+        numbers(&truth.lut).into_iter().map(move |quantity| Meaning::plain(truth, quantity))
+    };
+    tables.into_iter().flat_map(of).collect()
 }
 
 /// The candidate that is nearest to these values, as it is or scaled and shifted.

@@ -1,8 +1,11 @@
 //! Hypotheses against a sample: every layout for a table of ours, or some layouts for many.
 
+use super::family::numbers;
 use super::layout::{Layout, cosines, places, roughnesses};
-use super::sample::{Packing, Quantity, Sample};
+use super::sample::{Packing, Sample};
+use super::surface::Surface;
 use super::truth::{Truth, Values};
+use crate::table::axis::{AxisSpec, Nodes as NodesOfAxis};
 use rayon::prelude::*;
 
 /// A hypothesis, and its mean distance from the sample in units of the channels' spreads.
@@ -18,9 +21,14 @@ pub struct Hypothesis {
     pub distance: f64,
 }
 
+/// The truth at every pair of these n·v and these α.
+type OnGrid<'a> = dyn Fn(&[f64], &[f64]) -> Vec<Values> + 'a;
+
 /// What is true at every node that any layout puts at a sampled texel.
 pub struct EveryLayout {
     truth: Truth,
+    novs: Vec<AxisSpec>,
+    roughnesses: Vec<AxisSpec>,
     /// n·v along x and roughness along y; and the other way round.
     grids: [Nodes; 2],
 }
@@ -35,10 +43,6 @@ struct Nodes {
 }
 
 impl Nodes {
-    fn new(truth: &Truth, [novs, widths]: [Vec<f64>; 2], counts: [usize; 2]) -> Self {
-        Nodes { counts, width: novs.len(), values: truth.on_grid(&novs, &widths) }
-    }
-
     /// The truth at node `i` of the hypothesis `a` of n·v, and node `j` of `b` of roughness.
     #[inline]
     fn at(&self, (a, i): (usize, usize), (b, j): (usize, usize)) -> Values {
@@ -47,27 +51,55 @@ impl Nodes {
 }
 
 impl EveryLayout {
-    /// For a table of this size, sampled at these texels.
-    pub fn new(truth: Truth, size: [usize; 2], sample: &Sample) -> Self {
+    /// For a table of this size, sampled at these texels, with nodes of these kinds.
+    pub fn new(
+        truth: Truth,
+        size: [usize; 2],
+        sample: &Sample,
+        nodes_of_axes: &[NodesOfAxis],
+    ) -> Self {
+        let on_grid = |novs: &[f64], widths: &[f64]| truth.on_grid(novs, widths);
+        Self::with(truth, &on_grid, size, sample, nodes_of_axes)
+    }
+
+    /// The same by a surface.
+    pub fn of_surface(
+        surface: &Surface,
+        size: [usize; 2],
+        sample: &Sample,
+        nodes_of_axes: &[NodesOfAxis],
+    ) -> Self {
+        let on_grid = |novs: &[f64], widths: &[f64]| surface.on_grid(novs, widths);
+        Self::with(surface.truth, &on_grid, size, sample, nodes_of_axes)
+    }
+
+    fn with(
+        truth: Truth,
+        on_grid: &OnGrid,
+        size: [usize; 2],
+        sample: &Sample,
+        nodes_of_axes: &[NodesOfAxis],
+    ) -> Self {
         let [xs, ys] = &sample.texels;
-        let all = |specs: Vec<_>, size: usize, texels: &[usize]| -> Vec<f64> {
-            specs.into_iter().flat_map(|spec| places(spec, size, texels)).collect()
+        let (novs, roughnesses) = (cosines(nodes_of_axes), roughnesses(nodes_of_axes));
+        let all = |specs: &[AxisSpec], size: usize, texels: &[usize]| -> Vec<f64> {
+            specs.iter().flat_map(|&spec| places(spec, size, texels)).collect()
         };
-        let straight = [all(cosines(), size[0], xs), all(roughnesses(), size[1], ys)];
-        let turned = [all(cosines(), size[1], ys), all(roughnesses(), size[0], xs)];
-        let nodes = |places, counts| Nodes::new(&truth, places, counts);
+        let straight = [all(&novs, size[0], xs), all(&roughnesses, size[1], ys)];
+        let turned = [all(&novs, size[1], ys), all(&roughnesses, size[0], xs)];
+        let nodes = |[novs, widths]: [Vec<f64>; 2], counts| Nodes {
+            counts,
+            width: novs.len(),
+            values: on_grid(&novs, &widths),
+        };
         let grids = [nodes(straight, [xs.len(), ys.len()]), nodes(turned, [ys.len(), xs.len()])];
-        EveryLayout { truth, grids }
+        EveryLayout { truth, novs, roughnesses, grids }
     }
 
     /// Every layout with its best packing, or with every packing.
-    pub fn hypotheses(
-        &self,
-        sample: &Sample,
-        numbers: &[Quantity],
-        every_packing: bool,
-    ) -> Vec<Hypothesis> {
-        let (novs, widths) = (cosines(), roughnesses());
+    pub fn hypotheses(&self, sample: &Sample, every_packing: bool) -> Vec<Hypothesis> {
+        let (novs, widths) = (&self.novs, &self.roughnesses);
+        let numbers = &numbers(&self.truth.lut);
         let [columns, rows] = [sample.texels[0].len(), sample.texels[1].len()];
         let layouts = 2 * novs.len() * widths.len();
         let of = |index: usize| {
@@ -92,9 +124,9 @@ pub fn with_layouts(
     layouts: &[Layout],
     size: [usize; 2],
     sample: &Sample,
-    numbers: &[Quantity],
 ) -> Vec<Hypothesis> {
     let [xs, ys] = &sample.texels;
+    let numbers = &numbers(&truth.lut);
     let points: Vec<(f64, f64)> =
         layouts.iter().flat_map(|layout| points(layout, size, [xs, ys])).collect();
     let values = truth.at(&points);
@@ -102,6 +134,17 @@ pub fn with_layouts(
         hypotheses(truth, *layout, sample.distances(values, numbers), false)
     };
     layouts.par_iter().zip(values.par_chunks(xs.len() * ys.len())).flat_map_iter(of).collect()
+}
+
+/// Each of these lobes with each of these layouts.
+pub fn with_lobes(
+    lobes: &[Truth],
+    layouts: &[Layout],
+    size: [usize; 2],
+    sample: &Sample,
+) -> Vec<Hypothesis> {
+    let of = |&lobe: &Truth| with_layouts(lobe, layouts, size, sample);
+    lobes.iter().flat_map(of).collect()
 }
 
 /// (n·v, α) of these texels, row by row.

@@ -1,11 +1,13 @@
 //! What is true at a texel: the channels of a table of ours.
 
 use crate::backend::cpu::Baker;
+use crate::integrate::average::add_average;
 use crate::integrate::rule::Rule;
 use crate::integrate::rules::REFERENCE;
 use crate::integrate::{Field, Integrand};
 use crate::lut::{Lut, MOST_CHANNELS};
 use crate::numeric::ball::Ball;
+use crate::numeric::quadrature::gauss_legendre::gauss_legendre;
 use crate::table::grid::Grid;
 use crate::units::SMALLEST_COSINE;
 
@@ -14,6 +16,13 @@ pub type Values = [f64; MOST_CHANNELS];
 
 /// The smallest n·v of a lobe whose albedo is infinite at 0, which no table holds.
 const GRAZING: f64 = 1e-4;
+
+/// An error of integrals with which hypotheses are told apart that differ by far more: most points
+/// err by far less than the bound.
+pub const ROUGH: f64 = 5e-3;
+
+/// The directions of rough averages, which err by 1e-3 at the most.
+const DIRECTIONS: usize = 24;
 
 /// A table of ours, at any texel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,9 +53,14 @@ impl Truth {
         let alphas = self.widths(&points.iter().map(|point| point.1).collect::<Vec<_>>());
         let inside: Vec<(f64, f64)> = mus.into_iter().zip(alphas.iter().copied()).collect();
         let integrals = self.baker(inside.len()).bake_points(&inside);
-        let averages = self.averages(&alphas);
-        let at = |(point, &(mu, _)): (usize, &(f64, f64))| {
-            self.values(mu, integrals.at(point), &averages, point)
+        // Averages cost most, and many points lie in a row.
+        let mut rows = alphas.clone();
+        rows.sort_by(f64::total_cmp);
+        rows.dedup();
+        let averages = self.averages(&rows);
+        let at = |(point, &(mu, alpha)): (usize, &(f64, f64))| {
+            let row = rows.partition_point(|&row| row < alpha);
+            self.values(mu, integrals.at(point), &averages, row)
         };
         inside.iter().enumerate().map(at).collect()
     }
@@ -61,7 +75,8 @@ impl Truth {
     fn averages(&self, alphas: &[f64]) -> Vec<Field> {
         let averaged = |integrand: Integrand| {
             let rule = Rule::for_cpu(integrand, self.tolerance, alphas.len()).unwrap_or(REFERENCE);
-            Baker::new(integrand, &rule).averages(alphas)
+            let baker = Baker::new(integrand, &rule);
+            if self.tolerance < ROUGH { baker.averages(alphas) } else { rough(&baker, alphas) }
         };
         self.lut.averaged().into_iter().map(averaged).collect()
     }
@@ -95,4 +110,21 @@ impl Truth {
         };
         alphas.iter().map(|&alpha| alpha.clamp(0.0, most)).collect()
     }
+}
+
+/// The averages at each α by few directions.
+fn rough(baker: &Baker, alphas: &[f64]) -> Field {
+    let nodes: Vec<(f64, f64)> = gauss_legendre(DIRECTIONS)
+        .into_iter()
+        .map(|node| (node.at, 2.0 * node.at * node.weight))
+        .collect();
+    let row = |&alpha: &f64| nodes.iter().map(move |&(mu, _)| (mu, alpha)).collect::<Vec<_>>();
+    let integrals = baker.bake_points(&alphas.iter().flat_map(row).collect::<Vec<_>>());
+    let count = integrals.count();
+    let mut averages = Field::zeros(count, alphas.len());
+    let mut integrals = integrals.iter();
+    for sum in averages.values_mut().chunks_exact_mut(count) {
+        add_average(&nodes, integrals.by_ref(), sum);
+    }
+    averages
 }

@@ -28,6 +28,11 @@ impl SchlickPower {
         Err(Error::bad_input("exponent of schlick", "1 to 20", short(exponent), cure))
     }
 
+    /// p
+    pub const fn exponent(self) -> f64 {
+        self.exponent
+    }
+
     /// 2p where that is a whole number: then a power is products and a root.
     fn halves(self) -> Option<u32> {
         let halves = 2.0 * self.exponent;

@@ -53,7 +53,7 @@ pub fn text(report: &Report) -> String {
             false => format!("undecided: {} fit as well", others.join(", ")),
         };
         let sure = if ratio.is_infinite() { "no other is possible".into() } else { sure };
-        say("", format!("{dimension:24}{choice:28}{sure}"));
+        say("", format!("{dimension:24}{choice:27} {sure}"));
     }
     for ChannelReport { name, meaning, stored, sampled, .. } in &report.channels {
         let of = |errors: &Errors| {
