@@ -2,6 +2,7 @@
 //! functions, quadrature.
 
 pub mod ball;
+pub mod climb;
 pub mod half;
 pub mod lanes;
 pub mod quadrature;

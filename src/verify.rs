@@ -27,6 +27,7 @@ mod refinement;
 mod report;
 mod run;
 mod sample;
+mod sampled;
 mod search;
 mod surface;
 mod truth;

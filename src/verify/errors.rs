@@ -1,5 +1,4 @@
-//! How far the values of a table are from the truth: those that are stored, and those that a
-//! bilinear lookup reads between them.
+//! How far the values that a table stores are from the truth.
 
 use super::channel::Texels;
 use super::decoding::Decoding;
@@ -9,18 +8,11 @@ use super::sample::spread;
 use crate::error::Result;
 use crate::foreign::Foreign;
 use crate::table::axis::{Axis, AxisSpec, Parameter};
-use crate::units::{alpha_of, roughness_of};
+use crate::units::roughness_of;
 use serde::Serialize;
 
 /// The error of the truth itself.
 pub const TOLERANCE: f64 = 1e-5;
-
-/// The domain of renderers, in which lookups are judged: several clamp roughness to 0.045
-/// (Filament), and of a sphere's pixels one in a million has an n·v below 1e-3.
-pub const PRACTICAL: (f64, f64) = (1e-3, 0.045);
-
-/// Places along an axis at which lookups are searched at the most.
-const PLACES: usize = 260;
 
 /// Texels along each axis that are measured at the most; of a larger table as many, evenly spread,
 /// both ends among them.
@@ -81,22 +73,26 @@ pub struct Differences {
 }
 
 impl Convention<'_> {
-    fn axes(&self, table: &Foreign) -> Result<(Axis, Axis)> {
+    pub(super) fn axes(&self, table: &Foreign) -> Result<(Axis, Axis)> {
         let [columns, rows, _] = table.size;
         Ok((Axis::new(self.layout.x, columns)?, Axis::new(self.layout.y, rows)?))
     }
 
-    /// The truth of a channel at these places along x and y, row by row; none where its meaning is
-    /// not known.
-    fn truth(&self, channel: usize, xs: &[f64], ys: &[f64]) -> Option<Vec<f64>> {
+    /// The meaning of a channel over n·v and roughness, as exact as errors are; none where its
+    /// meaning is not known.
+    pub(super) fn meaning(&self, channel: usize) -> Option<Meaning> {
         // Of other axes the places are no n·v and no α.
         let known = |spec: AxisSpec| {
             matches!(spec.parameter, Parameter::Nov | Parameter::Roughness | Parameter::Alpha)
         };
-        if !known(self.layout.x) || !known(self.layout.y) {
-            return None;
-        }
         let meaning = self.meanings.get(channel)?.clone().within(TOLERANCE);
+        (known(self.layout.x) && known(self.layout.y)).then_some(meaning)
+    }
+
+    /// The truth of a channel at these places along x and y, row by row; none where its meaning is
+    /// not known.
+    pub(super) fn truth(&self, channel: usize, xs: &[f64], ys: &[f64]) -> Option<Vec<f64>> {
+        let meaning = self.meaning(channel)?;
         let transposed = self.layout.is_transposed();
         let (novs, widths) = if transposed { (ys, xs) } else { (xs, ys) };
         let grid = meaning.on_grid(novs, widths)?;
@@ -140,85 +136,21 @@ impl Convention<'_> {
         Ok(Some(Differences { size, values: differences, errors }))
     }
 
-    /// The errors of a bilinear lookup of a channel over the practical domain: at texels, between
-    /// them, at the ends of the domain.
-    pub fn sampled(&self, table: &Foreign, slice: usize, channel: usize) -> Result<Option<Errors>> {
-        let (x, y) = self.axes(table)?;
-        let (across, along) = (between(&x), between(&y));
-        let places = |axis: &Axis, texels: &[f64]| -> Vec<f64> {
-            let value = |&texel: &f64| place(axis.spec().parameter, unclamped(axis, texel));
-            texels.iter().map(value).collect()
-        };
-        let (xs, ys) = (places(&x, &across), places(&y, &along));
-        let Some(truth) = self.truth(channel, &xs, &ys) else { return Ok(None) };
-        let texels = Texels::new(table, slice);
-        let read = |index: usize| {
-            let (u, v) = (across[index % xs.len()], along[index / xs.len()]);
-            let columns = table.size[0];
-            let at = |i: usize, j: usize| self.decoding.value(&texels[j * columns + i], channel);
-            bilinear((u, table.size[0]), (v, table.size[1]), at)
-        };
-        let values: Vec<f64> = (0..truth.len()).map(read).collect();
-        let differences: Vec<f64> =
-            values.iter().zip(&truth).map(|(value, truth)| value - truth).collect();
-        let at = |index: usize| {
-            let (i, j) = (index % xs.len(), index / xs.len());
-            self.place((across[i], along[j]), (xs[i], ys[j]), values[index], truth[index])
-        };
-        Ok(Some(errors(&differences, at)))
-    }
-
-    fn place(&self, texel: (f64, f64), (x, y): (f64, f64), value: f64, truth: f64) -> Place {
+    /// A place with its value and the truth.
+    pub(super) fn place(
+        &self,
+        texel: (f64, f64),
+        (x, y): (f64, f64),
+        value: f64,
+        truth: f64,
+    ) -> Place {
         let (nov, alpha) = if self.layout.is_transposed() { (y, x) } else { (x, y) };
         Place { texel, nov, roughness: roughness_of(alpha), value, truth }
     }
 }
 
-/// Fractional texels of an axis within the practical domain: every texel, the middle between two,
-/// and the ends; of a large table every so many.
-fn between(axis: &Axis) -> Vec<f64> {
-    let parameter = axis.spec().parameter;
-    let least = match parameter {
-        Parameter::Nov => PRACTICAL.0,
-        Parameter::Alpha => alpha_of(PRACTICAL.1),
-        _ => PRACTICAL.1,
-    };
-    let (first, last) = (axis.texel(least), axis.texel(1.0));
-    let (low, high) = (first.min(last), first.max(last));
-    let halves = (2.0 * low).ceil() as i64..=(2.0 * high).floor() as i64;
-    let count = (high - low) * 2.0;
-    let step = (count / PLACES as f64).ceil().max(1.0) as usize;
-    // An odd step meets texels and middles.
-    let step = if step > 1 { step | 1 } else { 1 };
-    let mut places: Vec<f64> = halves.step_by(step).map(|half| half as f64 * 0.5).collect();
-    places.extend([low, high]);
-    places.sort_by(f64::total_cmp);
-    places.dedup();
-    places
-}
-
-/// The parameter at a fractional texel, within the domain.
-fn unclamped(axis: &Axis, texel: f64) -> f64 {
-    axis.value_at(texel).clamp(0.0, 1.0)
-}
-
-/// What a sampler reads at a fractional texel, clamped to the edge.
-fn bilinear(
-    (u, columns): (f64, usize),
-    (v, rows): (f64, usize),
-    at: impl Fn(usize, usize) -> f64,
-) -> f64 {
-    let cell = |texel: f64, size: usize| {
-        let texel = texel.clamp(0.0, (size - 1) as f64);
-        let first = (texel as usize).min(size.saturating_sub(2));
-        (first, (first + 1).min(size - 1), texel - first as f64)
-    };
-    let ((i, i1, s), (j, j1, t)) = (cell(u, columns), cell(v, rows));
-    let row = |j: usize| (1.0 - s) * at(i, j) + s * at(i1, j);
-    (1.0 - t) * row(j) + t * row(j1)
-}
-
-fn errors(differences: &[f64], place: impl Fn(usize) -> Place) -> Errors {
+/// The errors of these differences; `place`: where the one with this number lies.
+pub(super) fn errors(differences: &[f64], place: impl Fn(usize) -> Place) -> Errors {
     let mut amounts: Vec<(f64, usize)> = differences
         .iter()
         .enumerate()

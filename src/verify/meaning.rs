@@ -1,7 +1,7 @@
 //! What each channel of a texel is.
 
 use super::sample::Quantity;
-use super::truth::Truth;
+use super::truth::{Truth, Values};
 use crate::integrate::Integrand;
 use crate::lut::packing::{Content, Source};
 use crate::lut::{Lut, Packing};
@@ -60,21 +60,31 @@ impl Meaning {
     /// The values at every pair of these n·v and α, n·v varying fastest; none of what is unknown or
     /// another channel's.
     pub fn on_grid(&self, mus: &[f64], alphas: &[f64]) -> Option<Vec<f64>> {
-        let pairs = |value: fn(f64, f64) -> f64| {
-            let of_row = |&alpha: &f64| mus.iter().map(move |&mu| value(mu, alpha));
-            Some(alphas.iter().flat_map(of_row).collect())
-        };
-        match *self {
+        let row = |&alpha: &f64| mus.iter().map(move |&mu| (mu, alpha));
+        let points: Vec<(f64, f64)> = alphas.iter().flat_map(row).collect();
+        self.values(&points, |truth| truth.on_grid(mus, alphas))
+    }
+
+    /// The values at these (n·v, α).
+    pub fn at(&self, points: &[(f64, f64)]) -> Option<Vec<f64>> {
+        self.values(points, |truth| truth.at(points))
+    }
+
+    fn values(
+        &self,
+        points: &[(f64, f64)],
+        numbers: impl FnOnce(Truth) -> Vec<Values>,
+    ) -> Option<Vec<f64>> {
+        Some(match *self {
             Meaning::Number { truth, quantity, scale, offset } => {
-                let values = truth.on_grid(mus, alphas);
                 let of = |values| scale * quantity.value(values) + offset;
-                Some(values.iter().map(of).collect())
+                numbers(truth).iter().map(of).collect()
             }
-            Meaning::Nov => pairs(|mu, _| mu),
-            Meaning::Roughness => pairs(|_, alpha| roughness_of(alpha)),
-            Meaning::Constant(value) => Some(vec![value; mus.len() * alphas.len()]),
-            Meaning::Copy(_) | Meaning::Unknown => None,
-        }
+            Meaning::Nov => points.iter().map(|&(mu, _)| mu).collect(),
+            Meaning::Roughness => points.iter().map(|&(_, alpha)| roughness_of(alpha)).collect(),
+            Meaning::Constant(value) => vec![value; points.len()],
+            Meaning::Copy(_) | Meaning::Unknown => return None,
+        })
     }
 
     /// The same integrals within another error.
@@ -91,6 +101,11 @@ impl Meaning {
     /// Whether it is a number that varies and is known.
     pub fn varies(&self) -> bool {
         matches!(self, Meaning::Number { .. } | Meaning::Nov | Meaning::Roughness)
+    }
+
+    /// Whether it is of a table with averages over all directions.
+    pub fn has_averages(&self) -> bool {
+        matches!(self, Meaning::Number { truth, .. } if !truth.lut.averaged().is_empty())
     }
 
     /// Whether it is an albedo that nothing may lift above 1.

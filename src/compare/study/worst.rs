@@ -8,6 +8,7 @@ use crate::error::Result;
 use crate::integrate::ScaleBias;
 use crate::integrate::rule::Rule;
 use crate::integrate::rules::REFERENCE;
+use crate::numeric::climb::{Climber, climb};
 use crate::table::axis::{Axis, Parameter};
 use crate::table::grid::Grid;
 use crate::units::{Alpha, PerceptualRoughness};
@@ -63,14 +64,6 @@ pub struct Search {
     truth: Vec<ScaleBias>,
 }
 
-/// A place between its neighbours, and the error there.
-#[derive(Clone, Copy, Debug)]
-struct Climber {
-    mu: [f64; 3],
-    row: [f64; 3],
-    error: f64,
-}
-
 /// The cheapest rule by which lookups can be judged at this number of places.
 pub fn rule(lobe: Microfacet, places: usize) -> Rule {
     let within = |tolerance| Rule::for_cpu(lobe, tolerance, places);
@@ -108,13 +101,16 @@ impl Search {
 
     /// The largest error over a domain of what `read` gives.
     pub fn largest(&self, domain: Domain, read: Read) -> Result<f64> {
-        let mut climbers = self.starts(domain, read)?;
-        climbers.sort_by(|a, b| b.error.total_cmp(&a.error));
-        climbers.truncate(CLIMBERS);
-        for _ in 0..STEPS {
-            self.step(&mut climbers, read)?;
-        }
-        Ok(climbers.iter().map(|climber| climber.error).fold(0.0, f64::max))
+        let errors = |places: &[(f64, f64)]| {
+            let point = |&(mu, row): &(f64, f64)| Ok((mu, alpha(&self.y, row)?));
+            let points = places.iter().map(point).collect::<Result<Vec<_>>>()?;
+            let rule = rule(self.lobe, points.len());
+            let truth = cpu::bake_points(self.lobe, &points, &rule).scale_bias();
+            let error = |(&(mu, row), truth): (&(f64, f64), ScaleBias)| seen(read(mu, row), truth);
+            Ok(places.iter().zip(truth).map(error).collect())
+        };
+        let climbers = climb(self.starts(domain, read)?, CLIMBERS, STEPS, &errors)?;
+        Ok(climbers.first().map_or(0.0, |climber| climber.value))
     }
 
     /// The worst place of each row in the domain.
@@ -129,40 +125,9 @@ impl Search {
             let errors = (first..self.mus.len()).map(|i| (i, error(i)));
             let (i, error) = errors
                 .fold((first, 0.0), |worst, here| if here.1 > worst.1 { here } else { worst });
-            Climber {
-                mu: around(&self.mus, i, first),
-                row: around(&self.rows, j, first_row),
-                error,
-            }
+            Climber::at([&self.mus, &self.rows], [i, j], [first, first_row], error)
         };
         Ok((first_row..self.rows.len()).into_par_iter().map(worst).collect())
-    }
-
-    /// Each to the worst of the nine places half as far apart.
-    fn step(&self, climbers: &mut [Climber], read: Read) -> Result<()> {
-        let mut points = Vec::with_capacity(9 * climbers.len());
-        for Climber { mu, row, .. } in climbers.iter() {
-            for row in halved(*row).into_iter().skip(1).take(3) {
-                let alpha = alpha(&self.y, row)?;
-                points.extend(halved(*mu).into_iter().skip(1).take(3).map(|mu| (mu, alpha)));
-            }
-        }
-        let truth =
-            cpu::bake_points(self.lobe, &points, &rule(self.lobe, points.len())).scale_bias();
-        for (climber, truth) in climbers.iter_mut().zip(truth.chunks_exact(9)) {
-            let (mus, rows) = (halved(climber.mu), halved(climber.row));
-            // The middle of the nine, where the climber stands.
-            let (mut i, mut j) = (1, 1);
-            for (place, &truth) in truth.iter().enumerate() {
-                let error = seen(read(mus[place % 3 + 1], rows[place / 3 + 1]), truth);
-                if error > climber.error {
-                    (i, j, climber.error) = (place % 3, place / 3, error);
-                }
-            }
-            climber.mu = [mus[i], mus[i + 1], mus[i + 2]];
-            climber.row = [rows[j], rows[j + 1], rows[j + 2]];
-        }
-        Ok(())
     }
 }
 
@@ -199,17 +164,4 @@ fn sorted(mut values: Vec<f64>) -> Vec<f64> {
     values.sort_by(f64::total_cmp);
     values.dedup();
     values
-}
-
-/// A place between its neighbours, the first of which lies in the domain.
-fn around(places: &[f64], i: usize, first: usize) -> [f64; 3] {
-    [places[i.saturating_sub(1).max(first)], places[i], places[(i + 1).min(places.len() - 1)]]
-}
-
-/// Three places with the middles between them: in proportion where they are far apart, as towards
-/// the corner.
-fn halved([low, at, high]: [f64; 3]) -> [f64; 5] {
-    let middle =
-        |a: f64, b: f64| if a > 0.0 && b > 2.0 * a { (a * b).sqrt() } else { 0.5 * (a + b) };
-    [low, middle(low, at), at, middle(at, high), high]
 }
