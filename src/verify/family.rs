@@ -1,6 +1,7 @@
 //! Tables beside the split sums of Schlick's Fresnel: exact Fresnel, glass, what a lobe leaves and
 //! loses. Most have a number of their own, an index of refraction or F0, which is fitted.
 
+pub mod contest;
 pub mod number;
 pub mod seek;
 
@@ -69,10 +70,9 @@ pub fn families(channels: usize) -> Result<Vec<Truth>> {
     }
     let alone = if channels == 1 { EnergyChannels::Turquin } else { EnergyChannels::KullaConty };
     // These have no number, and depend the more on the lobe.
-    let (ggx, beckmann) = (Ndf::Ggx, Ndf::Beckmann);
-    let correlated = Masking::HeightCorrelated;
-    for (ndf, masking) in [(ggx, correlated), (ggx, Masking::SchlickSmith), (beckmann, correlated)]
-    {
+    let (correlated, ggx) = (Masking::HeightCorrelated, Ndf::Ggx);
+    let of_ggx = [correlated, Masking::Separable, Masking::SchlickSmith].map(|of| (ggx, of));
+    for (ndf, masking) in of_ggx.into_iter().chain([(Ndf::Beckmann, correlated)]) {
         let lobe = Microfacet::new(ndf, Some(masking))?;
         luts.push(Lut::Energy(Energy::new(lobe, F0::new(0.0)?, alone)?));
     }

@@ -5,16 +5,15 @@ use super::candidates::{likely, sheen, split_sums, unlikely};
 use super::channel::{Channel, Texels, channels};
 use super::decision::{self, Decision, decide};
 use super::decoding::Decoding;
+use super::family::contest::contest;
 use super::family::number::{neighbours, parameter, tuned};
 use super::family::seek::seek;
-use super::family::{fine, is_split_sum, kind};
+use super::family::{fine, is_split_sum};
 use super::layout::{Layout, NODES};
 use super::refinement::{Refined, Refinement};
 use super::sample::{FLOOR, Quantity, Sample, distance};
 use super::search::{EveryLayout, Hypothesis, nearest, points, with_lobes};
 use super::surface::Surface;
-use super::truth::Truth;
-use crate::brdf::Fresnel;
 use crate::error::Result;
 use crate::foreign::Foreign;
 use crate::units::short;
@@ -31,10 +30,6 @@ pub const MANY: usize = 48;
 /// A table that is as near as this by the likely lobes is not sought by more, by all but sheen not
 /// by sheen, and by all split sums not by other families.
 const CLOSE: [f64; 3] = [0.004, 0.015, 0.002];
-
-/// A split sum is one with another exponent of Schlick's approximation where that is so many times
-/// nearer: a number that is fitted suits noise too.
-const GAIN: f64 = 3.0;
 
 /// The last of them for tables of one channel.
 const CLOSE_ALONE: f64 = 0.001;
@@ -97,18 +92,22 @@ pub fn identify(table: &Foreign, slice: usize) -> Result<Option<Identity>> {
             break;
         }
     }
-    let (families, families_tried) = ask_families(&mut nearest_of, size, &few)?;
-    let Some((k, _)) = first_by_distance(&nearest_of) else { return Ok(None) };
-    let (k, encoding) = by_encoding(table, slice, &decodings, &nearest_of, k, &lists);
+    let (families, families_tried) = ask_families(&nearest_of, size, &few)?;
+    let nearest_of_all: Vec<Hypothesis> = nearest_of
+        .iter()
+        .zip(&families)
+        .map(|(split_sum, families)| first_of(split_sum, families).clone())
+        .collect();
+    let Some((k, _)) = first_by_distance(&nearest_of_all) else { return Ok(None) };
+    let (k, encoding) = by_encoding(table, slice, &decodings, &nearest_of_all, k, &lists);
     let many = Sample::new(table, slice, decodings[k], &lists[k], MANY);
     let some = Sample::new(table, slice, decodings[k], &lists[k], SOME);
     let search = Refinement { lobes: &lobes, size, few: &few[k], some: &some, many: &many };
-    let refined = search.from(&nearest_of[k]);
-    let Some(Refined { layout, every, nodes, by_nodes, lobe, by_lobe }) = refined else {
-        return Ok(None);
-    };
+    let Some(split_sum) = search.from(&nearest_of[k]) else { return Ok(None) };
+    let (refined, family) = contest(&search, split_sum, &families[k]);
+    let Refined { layout, every, nodes, by_nodes, lobe, by_lobe } = refined;
     let mut decisions = vec![encoding];
-    decisions.extend(families[k].clone());
+    decisions.extend(family);
     decisions.extend(decide(&decision::LAYOUT, &layout, &every));
     decisions.extend(decide(&decision::NODES, &nodes, &by_nodes));
     decisions.extend(decide(&decision::LOBE, &lobe, &by_lobe));
@@ -127,61 +126,28 @@ pub fn identify(table: &Foreign, slice: usize) -> Result<Option<Identity>> {
     Ok(Some(Identity { tried, decoding: decodings[k], channels, nearest: lobe, decisions }))
 }
 
-/// Puts other families in the place of split sums where they are nearer, and where those are not
-/// close: what is decided of that for each way to decode, and the number of hypotheses that were
-/// tried.
+/// For each way to decode the nearest of other families, where no split sum is close, and the
+/// number of those that were tried.
 fn ask_families(
-    nearest_of: &mut [Hypothesis],
+    split_sums: &[Hypothesis],
     size: [usize; 2],
     few: &[Sample],
-) -> Result<(Vec<Option<Decision>>, usize)> {
+) -> Result<(Vec<Vec<Hypothesis>>, usize)> {
     // One channel is much alike: (1-E)/E is close to 1-E at other nodes.
     let close = if few.iter().all(|sample| sample.live() == 1) { CLOSE_ALONE } else { CLOSE[2] };
-    if nearest_of.iter().any(|nearest| nearest.distance < close) {
-        return Ok((vec![None; nearest_of.len()], 0));
+    let mut nearest = vec![Vec::new(); split_sums.len()];
+    if split_sums.iter().any(|split_sum| split_sum.distance < close) {
+        return Ok((nearest, 0));
     }
     // By values as they are, and as split sums have them.
     let mut asked = vec![0];
-    asked.extend(first_by_distance(nearest_of).map(|(k, _)| k).filter(|&k| k > 0));
+    asked.extend(first_by_distance(split_sums).map(|(k, _)| k).filter(|&k| k > 0));
     let samples: Vec<&Sample> = asked.iter().map(|&k| &few[k]).collect();
     let found = seek(size, &samples)?;
-    let mut decisions = vec![None; nearest_of.len()];
-    for (k, others) in asked.into_iter().zip(found.nearest) {
-        decisions[k] = among(&mut nearest_of[k], others);
+    for (k, families) in asked.into_iter().zip(found.nearest) {
+        nearest[k] = families;
     }
-    Ok((decisions, found.tried))
-}
-
-/// Puts the nearest of other families in the place of a split sum where it is nearer.
-fn among(nearest: &mut Hypothesis, mut others: Vec<Hypothesis>) -> Option<Decision> {
-    others.retain(|other| !is_same_for_every_exponent(other));
-    // Another exponent that is no nearer than noise makes it is no rival.
-    let split_sum = nearest.clone();
-    let nearer = |other: &Hypothesis, gain: f64| {
-        let gain = if is_of_another_exponent(other.truth) { gain } else { 1.0 };
-        gain * (other.distance + FLOOR) < split_sum.distance + FLOOR
-    };
-    others.retain(|other| nearer(other, decision::DECIDED) || !is_of_another_exponent(other.truth));
-    if let Some(other) = others.iter().find(|other| nearer(other, GAIN)) {
-        *nearest = other.clone();
-    }
-    let family = |hypothesis: &Hypothesis| kind(&hypothesis.truth.lut);
-    let own = family(nearest);
-    let others = others.iter().chain([&split_sum]).filter(|other| family(other) != own);
-    let others = others.map(|other| (family(other), other.distance)).collect();
-    Some(decision::among("family", own, nearest.distance, others))
-}
-
-/// Whether it is a split sum of another exponent of Schlick's approximation.
-fn is_of_another_exponent(truth: Truth) -> bool {
-    matches!(truth.lut.fresnel(), Some(Fresnel::SchlickPower(_)))
-}
-
-/// Whether it is one of its E alone.
-fn is_same_for_every_exponent(hypothesis: &Hypothesis) -> bool {
-    let varies = |quantity| matches!(quantity, Quantity::Channel(0 | 1));
-    is_of_another_exponent(hypothesis.truth)
-        && !hypothesis.packing.iter().any(|&(_, quantity)| varies(quantity))
+    Ok((nearest, found.tried))
 }
 
 /// What is decided about the number that is a table's own.
@@ -190,6 +156,11 @@ fn number(nearest: &Hypothesis, size: [usize; 2], sample: &Sample) -> Option<Dec
     let others = neighbours(nearest, size, sample);
     let others = others.into_iter().map(|(other, distance)| (short(other), distance)).collect();
     Some(decision::among(name, short(value), nearest.distance, others))
+}
+
+/// The nearest of a split sum and of other families.
+fn first_of<'a>(split_sum: &'a Hypothesis, families: &'a [Hypothesis]) -> &'a Hypothesis {
+    families.first().filter(|family| family.distance < split_sum.distance).unwrap_or(split_sum)
 }
 
 /// The nearest of hypotheses with its place.

@@ -10,6 +10,8 @@ use super::sample::{FLOOR, Sample};
 use super::search::{EveryLayout, Hypothesis, nearest, with_layouts, with_lobes};
 use super::surface::Surface;
 use super::truth::Truth;
+use crate::brdf::Ndf;
+use crate::integrate::Integrand;
 
 /// A lobe tells the layout, the layout the nodes, the nodes the lobe: until they agree.
 #[derive(Clone, Copy)]
@@ -65,7 +67,7 @@ impl Refinement<'_> {
     fn of_split_sum(&self, mut truth: Truth) -> Option<Refined> {
         let mut nearest_so_far: Option<Refined> = None;
         for _ in 0..TURNS {
-            let refined = self.by(truth, false)?;
+            let refined = self.by(truth, is_sheen(truth))?;
             let next = refined.lobe.truth;
             let nearer = |so_far: &Refined| refined.lobe.distance < so_far.lobe.distance;
             let settled = next == truth;
@@ -109,7 +111,7 @@ impl Refinement<'_> {
         last
     }
 
-    /// One turn, with the layouts of this lobe.
+    /// One turn, with the layouts of this lobe, whose integrals at all of them may take long.
     fn by(&self, truth: Truth, by_surface: bool) -> Option<Refined> {
         let Refinement { lobes, size, few, many, .. } = *self;
         let nodes = if is_split_sum(truth) { &NODES[..] } else { &NODES[..COMMON_NODES] };
@@ -135,6 +137,11 @@ impl Refinement<'_> {
         let lobe = if lobe.truth == truth { nodes.clone() } else { lobe.clone() };
         Some(Refined { layout, every, nodes, by_nodes, lobe, by_lobe })
     }
+}
+
+/// Whether its integrals cost a hundred times those of other lobes.
+fn is_sheen(truth: Truth) -> bool {
+    matches!(truth.lut.integrand(), Integrand::Specular(lobe, _) if lobe.ndf == Ndf::Charlie)
 }
 
 /// The layout with every pair of nodes.
