@@ -18,6 +18,9 @@ pub struct Preset {
     pub flags: &'static str,
     /// The name of its file.
     pub file: &'static str,
+    /// Whether the engine reads a table of the size that the flags name alone: it checks the size,
+    /// or its shader or array has it as a constant.
+    pub only_size: bool,
     /// Where the convention was read.
     pub source: &'static str,
     /// What a texel holds, and in which order.

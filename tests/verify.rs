@@ -88,6 +88,11 @@ fn a_table_that_is_not_an_engines_is_told_so() {
         ("--channels ab --y alpha --size 16", "bevy", Some("wrong-mapping")),
         ("--channels ab --size 16", "bevy", None),
         ("--x roughness --y nov --channels ab --size 16", "threejs", None),
+        (
+            "--channels b,e --x nov,sqrt,edges --y roughness,edges --size 16",
+            "hdrp",
+            Some("wrong-size"),
+        ),
     ] {
         let flags = flags.replace("--channels ba", "--channels b,a");
         // Raw texels say nothing of themselves.
@@ -256,7 +261,7 @@ fn axes_that_are_the_same_by_other_words_are_no_fault() {
 fn a_channel_that_an_engine_misses_is_a_fault() {
     let folder = tempdir().unwrap();
     for channels in ["b,e,0", "b,e", "b,e,nov"] {
-        ok(&folder, &format!("bake -q --channels {channels} --size 16 --format npy -o t.npy"));
+        ok(&folder, &format!("bake -q --channels {channels} --size 128 --format npy -o t.npy"));
         let (_, code, faults) = verified(&folder, "t.npy --as filament");
         assert_eq!((code, faults), (7, vec!["wrong-channels".to_owned()]), "{channels}");
     }

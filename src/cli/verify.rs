@@ -9,6 +9,7 @@ use super::{choices, output, place, print, print_json, standard_output, usage};
 use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::foreign::{Foreign, MOST_BYTES, RawLayout, Reading};
+use crate::preset::Preset;
 use crate::verify::{Demands, Expected, Kind, Report, Status, page, verify};
 use std::fs::File;
 use std::io::Read;
@@ -123,8 +124,17 @@ impl ReadArgs {
 /// The table of a preset in the size of another.
 fn of_preset(preset: &str, table: &Foreign) -> Result<Expected> {
     let [columns, rows, _] = table.size;
-    let job = TableArgs::of_flags(&format!("--preset {preset} --size {columns}x{rows}"))?.job()?;
-    Ok(Expected { whose: preset.to_owned(), request: job.request, certain: false })
+    let request =
+        |size: &str| Ok(TableArgs::of_flags(&format!("--preset {preset}{size}"))?.job()?.request);
+    let size = match Preset::named(preset)?.only_size {
+        true => {
+            let own = request("")?;
+            Some([own.layout().x.size(), own.layout().y.size()])
+        }
+        false => None,
+    };
+    let request = request(&format!(" --size {columns}x{rows}"))?;
+    Ok(Expected { whose: preset.to_owned(), request, size, certain: false })
 }
 
 /// Why a table is refused, in a line.

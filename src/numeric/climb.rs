@@ -30,7 +30,7 @@ pub fn climb<E>(
     mut climbers: Vec<Climber>,
     count: usize,
     steps: usize,
-    values: &dyn Fn(&[(f64, f64)]) -> Result<Vec<f64>, E>,
+    values: impl Fn(&[(f64, f64)]) -> Result<Vec<f64>, E>,
 ) -> Result<Vec<Climber>, E> {
     climbers.sort_by(|a, b| b.value.total_cmp(&a.value));
     climbers.truncate(count);
@@ -93,7 +93,7 @@ mod tests {
             let (i, j) = (k % 9, k / 9);
             Climber::at([&nodes, &nodes], [i, j], [0, 0], top(nodes[i], nodes[j]))
         };
-        let climbers = climb((0..81).map(start).collect(), 4, 20, &values);
+        let climbers = climb((0..81).map(start).collect(), 4, 20, values);
         // Twenty halvings of 1/8 are 1e-7, whose square is lost beside 3.
         assert!(climbers.is_ok_and(|climbers| (climbers[0].value - 3.0).abs() < 1e-12));
     }

@@ -9,6 +9,7 @@ pub const PRESETS: &[Preset] = &[
         flags: "--channels e --x roughness,edges,min=1e-4 --y nov,edges,min=1e-4 --size 32 \
                 --precision f32 --symbol table_ggx_E",
         file: "table_ggx_E.h",
+        only_size: true,
         source: "blender/blender: intern/cycles/scene/shader.tables, \
                  intern/cycles/app/cycles_precompute.cpp",
         stored: "E; roughness runs along a row, nodes at i/31 and both from 1e-4 on.",
@@ -22,6 +23,7 @@ pub const PRESETS: &[Preset] = &[
         flags: "--channels e_avg --x roughness,edges,min=1e-4 --y nov --size 32x1 --precision f32 \
                 --symbol table_ggx_Eavg",
         file: "table_ggx_Eavg.h",
+        only_size: true,
         source: "blender/blender: intern/cycles/scene/shader.tables",
         stored: "E averaged over the hemisphere; roughness at i/31, from 1e-4 on.",
         lookup: "linear between nodes (lookup_table_read)",
@@ -35,6 +37,7 @@ pub const PRESETS: &[Preset] = &[
                 nov,sqrt-complement,edges,min=1e-4,max=0.9999 --size 64 --precision f32 --symbol \
                 brdf_ggx",
         file: "brdf_ggx.h",
+        only_size: true,
         source: "blender/blender: source/blender/draw/engines/eevee: eevee_lut_comp.glsl, \
                  eevee_lut.cc, eevee_utility_tx_lib.glsl",
         stored: "A, B, C by the separable term; roughness runs along a row, y = sqrt(1 - n.v), \
@@ -50,6 +53,7 @@ pub const PRESETS: &[Preset] = &[
         flags: "--channels e --x nov,edges,min=1e-6 --y roughness,edges,min=0.0316227766 --size 32 \
                 --precision f32 --format raw",
         file: "microfacet_albedo.raw",
+        only_size: true,
         source: "RenderKit/ospray: modules/cpu/render/bsdfs/MicrofacetAlbedoTables.ispc",
         stored: "E; nodes at i/31, alpha from 0.001 on. Its average: --channels e_avg --x \
                  roughness,edges,min=0.0316227766 --y nov --size 32x1. The dielectric and the \
@@ -64,6 +68,7 @@ pub const PRESETS: &[Preset] = &[
         flags: "--masking separable --channels 1-e --x nov,edges,min=1e-3 --y roughness,edges \
                 --size 32 --precision unorm16 --format txt",
         file: "openpbr_ideal_metal_energy_complement_data.h",
+        only_size: true,
         source: "adobe/openpbr-bsdf: impl/data/openpbr_energy_arrays.h, \
                  impl/openpbr_energy_array_access.h",
         stored: "1 - E as u16; n.v runs along a row, nodes at i/31, the first n.v at 1e-3. Its \
@@ -80,6 +85,7 @@ pub const PRESETS: &[Preset] = &[
                 nov,sqrt-complement,edges,min=7.963e-4 --size 64 --precision f32 --symbol \
                 ltc_magnitude",
         file: "ltc_magnitude.h",
+        only_size: true,
         source: "selfshadow/ltc_code: fit/fitLTC.cpp; npm three: \
                  examples/jsm/lights/RectAreaLightTexturesLib.js",
         stored: "E, B; roughness runs along a row, y = sqrt(1 - n.v), nodes at i/63, alpha from \

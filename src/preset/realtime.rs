@@ -8,6 +8,7 @@ pub const PRESETS: &[Preset] = &[
         about: "Filament's table of 128 x 128: (B, E) and cloth",
         flags: "--channels b,e,charlie --size 128 --precision f16 --format raw",
         file: "dfg.bin",
+        only_size: true,
         source: "google/filament: libs/ibl/src/CubemapIBL.cpp, filament/src/DFG.cpp, \
                  shaders/src/surface_light_indirect.fs",
         stored: "R = B, G = E, B = E of Charlie with Neubelt's visibility, as RGB16F side by side; \
@@ -23,6 +24,7 @@ pub const PRESETS: &[Preset] = &[
         about: "the same at 64 x 64, as for Android, iOS and the web",
         flags: "--channels b,e,charlie --size 64 --precision f16 --format raw",
         file: "dfg.bin",
+        only_size: true,
         source: "google/filament: filament/CMakeLists.txt (IS_MOBILE_TARGET)",
         stored: "As filament; 24,576 bytes.",
         lookup: "(n.v, perceptual roughness)",
@@ -35,6 +37,7 @@ pub const PRESETS: &[Preset] = &[
         about: "Babylon.js' environment BRDF: (B, E) and sheen",
         flags: "--channels b,e,charlie --size 256 --precision rgbd8",
         file: "environment_brdf.png",
+        only_size: false,
         source: "npm @babylonjs/core 9.35.0: Misc/brdfTextureTools.js, \
                  Shaders/ShadersInclude/pbrBRDFFunctions.js",
         stored: "R = B, G = E, B = E of Charlie with Neubelt's visibility, as RGBD; row 0 is \
@@ -53,6 +56,7 @@ pub const PRESETS: &[Preset] = &[
         about: "Babylon.js' table of its OpenPBR material: (B, E) and the F82 term",
         flags: "--fresnel f82 --channels b,e,c*16 --size 128 --precision rgbd8",
         file: "openpbr_environment_brdf.png",
+        only_size: false,
         source: "npm @babylonjs/core 9.35.0: Misc/brdfTextureTools.js",
         stored: "R = B, G = E, B = 16 C, as RGBD; row 0 is smooth.",
         lookup: "(n.v, perceptual roughness)",
@@ -65,6 +69,7 @@ pub const PRESETS: &[Preset] = &[
         about: "lut_ggx.png of Khronos' glTF sampler and viewers",
         flags: "--channels ab --size 1024 --precision unorm8",
         file: "lut_ggx.png",
+        only_size: false,
         source: "KhronosGroup/glTF-IBL-Sampler: lib/shaders/filter.frag; glTF-Sample-Renderer: \
                  source/Renderer/shaders/ibl.glsl",
         stored: "R = A, G = B; row 0 is smooth. Blue, Charlie's E, exceeds what 8 bits hold near \
@@ -80,6 +85,7 @@ pub const PRESETS: &[Preset] = &[
         about: "three.js' table of 16 x 16 (r181 and later)",
         flags: "--channels ab --x roughness --y nov --size 16 --precision f16 --symbol DATA",
         file: "DFGLUTData.js",
+        only_size: false,
         source: "npm three 0.187.0: src/renderers/shaders/DFGLUTData.js, \
                  src/nodes/functions/BSDF/DFGLUT.js",
         stored: "R = A, G = B as halves; roughness runs along a row, row 0 is grazing.",
@@ -93,6 +99,7 @@ pub const PRESETS: &[Preset] = &[
         about: "Bevy's table",
         flags: "--channels ab --size 64 --precision f16",
         file: "dfg.ktx2",
+        only_size: false,
         source: "crate bevy_pbr 0.20.1: src/environment_map/dfg.ktx2, src/render/pbr_lighting.wesl",
         stored: "R = A, G = B as RG16F; row 0 is smooth.",
         lookup: "(n.v, perceptual roughness)",
@@ -106,6 +113,7 @@ pub const PRESETS: &[Preset] = &[
         about: "Unreal Engine's PreIntegratedGF of 128 x 32",
         flags: "--masking height-correlated-approx --channels ab --size 128x32 --precision f16",
         file: "T_PreIntegratedGF.exr",
+        only_size: false,
         source: "Unreal Engine 5: Renderer/Private/SystemTextures.cpp, Shaders/Private/BRDF.ush \
                  (EnvBRDF)",
         stored: "R = A, G = B by the approximation of the joint term; row 0 is smooth. The \
@@ -123,6 +131,7 @@ pub const PRESETS: &[Preset] = &[
         flags: "--channels b,e,burley*0.9655212-0.5 --x nov,sqrt,edges --y roughness,edges,flip \
                 --size 64 --precision f16",
         file: "PreIntegratedFGD_GGXDisneyDiffuse.exr",
+        only_size: true,
         source: "Unity-Technologies/Graphics: high-definition/Runtime/Material/PreIntegratedFGD, \
                  core/ShaderLibrary/ImageBasedLighting.hlsl",
         stored: "R = B, G = E, B = Burley's albedo/1.03571 - 1/2. Nodes at i/(N-1), x = sqrt(n.v). \
@@ -141,6 +150,7 @@ pub const PRESETS: &[Preset] = &[
                 b*0.15915494309189535,e*0.15915494309189535,fabric-lambert --y roughness,flip \
                 --size 64 --precision f16",
         file: "PreIntegratedFGD_CharlieAndFabric.exr",
+        only_size: false,
         source: "Unity-Technologies/Graphics: preIntegratedFGD_CharlieFabricLambert.shader, \
                  BSDF.hlsl",
         stored: "R = B/(2 pi), G = E/(2 pi), B = 1 - alpha/2; the shader multiplies by 2 pi. Unity \
@@ -157,6 +167,7 @@ pub const PRESETS: &[Preset] = &[
         flags: "--masking schlick-smith --channels be --y roughness,flip --size 128 --precision \
                 f16 --components 2",
         file: "dfg_lut.dds",
+        only_size: false,
         source: "godotengine/godot: servers/rendering/renderer_rd/shaders/forward_clustered/\
                  integrate_dfg.glsl, scene_forward_clustered_inc.glsl",
         stored: "R = B, G = E by Schlick's term with k = alpha/2; row 0 is rough.",
@@ -172,6 +183,7 @@ pub const PRESETS: &[Preset] = &[
         about: "Open 3D Engine's BRDF texture",
         flags: "--channels ab --y roughness,flip --size 256 --precision f16 --components 2",
         file: "brdf_lut.dds",
+        only_size: false,
         source: "o3de/o3de: \
                  Gems/Atom/Feature/Common/Assets/Shaders/BRDFTexture/BRDFTextureCS.azsl, \
                  LightingUtils.azsli",
@@ -186,6 +198,7 @@ pub const PRESETS: &[Preset] = &[
         about: "NVIDIA Donut's environment BRDF",
         flags: "--channels ab --size 64 --precision f16 --components 2",
         file: "environment_brdf.dds",
+        only_size: false,
         source: "NVIDIA-RTX/Donut: shaders/passes/light_probe.hlsl, \
                  src/render/LightProbeProcessingPass.cpp",
         stored: "R = A, G = B as RG16F; row 0 is smooth.",

@@ -8,6 +8,7 @@ pub const PRESETS: &[Preset] = &[
         about: "MaterialX' table of directional albedo: (A, B) and sheen",
         flags: "--channels a,b,charlie --y alpha --size 64 --precision f32",
         file: "AlbedoTable.exr",
+        only_size: false,
         source: "AcademySoftwareFoundation/MaterialX: libraries/pbrlib/genglsl/lib/mx_table.glsl",
         stored: "R = A, G = B, B = E of Charlie with Neubelt's visibility. A row is one alpha of \
                  both: sheen's own roughness is not squared.",
@@ -22,6 +23,7 @@ pub const PRESETS: &[Preset] = &[
         about: "LearnOpenGL's table, as in many renderers that follow it",
         flags: "--masking schlick-smith --channels ab --size 512 --precision f16 --format raw",
         file: "brdf_lut.raw",
+        only_size: false,
         source: "JoeyDeVries/LearnOpenGL: src/6.pbr/2.2.2.ibl_specular_textured/2.2.2.brdf.fs",
         stored: "R = A, G = B by Schlick's term with k = alpha/2, as RG16F; row 0 is smooth.",
         lookup: "(n.v, roughness)",
@@ -35,6 +37,7 @@ pub const PRESETS: &[Preset] = &[
         about: "VTK's vtkPBRLUTTexture",
         flags: "--masking schlick-smith --channels ab --size 512 --precision unorm16 --format raw",
         file: "vtk_pbr_lut.raw",
+        only_size: false,
         source: "Kitware/VTK: Rendering/OpenGL2/vtkPBRLUTTexture.cxx",
         stored: "R = A, G = B by Schlick's term with k = alpha/2, as RG16 unorm; row 0 is smooth.",
         lookup: "(n.v, roughness)",

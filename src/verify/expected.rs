@@ -19,6 +19,8 @@ pub struct Expected {
     pub whose: String,
     /// A table in it, of the same size.
     pub request: Request,
+    /// Columns and rows, where no other size is read.
+    pub size: Option<[usize; 2]>,
     /// Whether the file is known to be that table, byte for byte.
     pub certain: bool,
 }
@@ -44,6 +46,13 @@ impl Expected {
         let packings = self.request.packings();
         let packing = &packings[slice.min(packings.len() - 1)];
         Meaning::of_packing(packing, tolerance, components)
+    }
+
+    /// Where the size is another than what is read.
+    pub fn fault_of_size(&self, table: &Foreign) -> Option<Fault> {
+        let ([columns, rows], [i, j, _]) = (self.size?, table.size);
+        let text = format!("the size is {i} x {j}, {} reads {columns} x {rows} alone", self.whose);
+        ([columns, rows] != [i, j]).then(|| Fault::new(Kind::WrongSize, text))
     }
 
     /// Where the data decide otherwise.

@@ -31,6 +31,7 @@ pub enum Kind {
     WrongDistribution,
     WrongChannels,
     WrongMapping,
+    WrongSize,
     NotOurs,
     BeyondBound,
 }
@@ -52,6 +53,7 @@ choice!(Kind, "fault", {
     WrongDistribution = "wrong-distribution", "the distribution is not that of the engine";
     WrongChannels = "wrong-channels", "channels are not those of the engine";
     WrongMapping = "wrong-mapping", "the mapping of an axis is not that of the engine";
+    WrongSize = "wrong-size", "the engine reads a table of another size alone";
     NotOurs = "not-as-baked", "texels or metadata of splitsum's file are not those of its bake";
     BeyondBound = "beyond-bound", "an error is larger than --max-error";
 });

@@ -144,6 +144,7 @@ fn compare(
     let convention = Convention { decoding, layout, meanings: &meanings };
     let own = expected.request.packing().main().integrand();
     report.channels = errors(table, &convention, own, &[])?;
+    report.faults.extend(expected.fault_of_size(table));
     match found {
         _ if expected.certain => {
             report.status = Status::Known;

@@ -106,7 +106,7 @@ impl Convention<'_> {
             Ok(amounts.map(|amount| if amount.is_finite() { amount } else { 0.0 }).collect())
         };
         let count = if meaning.has_averages() { CLIMBERS_BY_ROW } else { CLIMBERS };
-        let climbers = climb(starts, count, STEPS, &amounts)?;
+        let climbers = climb(starts, count, STEPS, amounts)?;
         if let Some(top) = climbers.first().filter(|top| top.value > errors.largest) {
             let texel = (top.x[1], top.y[1]);
             let (value, truth) = lookup.pairs(&meaning, &[texel])[0];

@@ -83,7 +83,8 @@ impl Own {
         };
         let request = job.request.clone();
         let expected = |certain| {
-            Some(Expected { whose: "its metadata".into(), request: request.clone(), certain })
+            let (whose, request) = ("its metadata".into(), request.clone());
+            Some(Expected { whose, request, size: None, certain })
         };
         let backend = Backend::cpu();
         let plan = Plan::new(&job.request, &backend)?;

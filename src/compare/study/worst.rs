@@ -109,7 +109,7 @@ impl Search {
             let error = |(&(mu, row), truth): (&(f64, f64), ScaleBias)| seen(read(mu, row), truth);
             Ok(places.iter().zip(truth).map(error).collect())
         };
-        let climbers = climb(self.starts(domain, read)?, CLIMBERS, STEPS, &errors)?;
+        let climbers = climb(self.starts(domain, read)?, CLIMBERS, STEPS, errors)?;
         Ok(climbers.first().map_or(0.0, |climber| climber.value))
     }
 
