@@ -22,6 +22,13 @@ pub struct Ior(f64);
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct F0(f64);
 
+/// The least n·v in which renderers' lookups are judged: of a sphere's pixels one in a million has
+/// a smaller one.
+pub const PRACTICAL_NOV: f64 = 1e-3;
+
+/// The least perceptual roughness of that domain, to which several renderers clamp (Filament).
+pub const PRACTICAL_ROUGHNESS: f64 = 0.045;
+
 /// The largest α of a texel of an unclamped axis (roughness 1.06): the bounds of GGX's rules are
 /// searched up to there. Half a texel beyond roughness 1, as in Godot's table, is α = 1.0078.
 pub const LARGEST_ALPHA: f64 = 1.125;

@@ -9,11 +9,7 @@ use crate::foreign::Foreign;
 use crate::numeric::climb::{Climber, climb};
 use crate::table::axis::{Axis, Parameter};
 use crate::table::bilinear;
-use crate::units::alpha_of;
-
-/// The domain of renderers, in which lookups are judged: several clamp roughness to 0.045
-/// (Filament), and of a sphere's pixels one in a million has an n·v below 1e-3.
-pub const PRACTICAL: (f64, f64) = (1e-3, 0.045);
+use crate::units::{PRACTICAL_NOV, PRACTICAL_ROUGHNESS, alpha_of};
 
 /// Places along an axis at which lookups are searched at the most.
 const PLACES: usize = 260;
@@ -122,9 +118,9 @@ impl Convention<'_> {
 fn between(axis: &Axis) -> Vec<f64> {
     let parameter = axis.spec().parameter;
     let least = match parameter {
-        Parameter::Nov => PRACTICAL.0,
-        Parameter::Alpha => alpha_of(PRACTICAL.1),
-        _ => PRACTICAL.1,
+        Parameter::Nov => PRACTICAL_NOV,
+        Parameter::Alpha => alpha_of(PRACTICAL_ROUGHNESS),
+        _ => PRACTICAL_ROUGHNESS,
     };
     let (first, last) = (axis.texel(least), axis.texel(1.0));
     let (low, high) = (first.min(last), first.max(last));

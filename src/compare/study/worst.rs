@@ -11,7 +11,7 @@ use crate::integrate::rules::REFERENCE;
 use crate::numeric::climb::{Climber, climb};
 use crate::table::axis::{Axis, Parameter};
 use crate::table::grid::Grid;
-use crate::units::{Alpha, PerceptualRoughness};
+use crate::units::{Alpha, PRACTICAL_NOV, PRACTICAL_ROUGHNESS, PerceptualRoughness};
 use rayon::prelude::*;
 
 /// Where lookups are judged: n·v and perceptual roughness from these on, to 1.
@@ -26,9 +26,8 @@ pub struct Domain {
 /// Everything.
 pub const FULL: Domain = Domain { nov: 0.0, roughness: 0.0 };
 
-/// The domain of renderers: several clamp roughness to 0.045 (Filament), and of a sphere's pixels
-/// one in a million has an n·v below 1e-3.
-pub const PRACTICAL: Domain = Domain { nov: 1e-3, roughness: 0.045 };
+/// The domain of renderers.
+pub const PRACTICAL: Domain = Domain { nov: PRACTICAL_NOV, roughness: PRACTICAL_ROUGHNESS };
 
 /// The largest error of an integral by which lookups are judged; the smallest error of a lookup is
 /// a thousand times as large.
