@@ -123,9 +123,21 @@ impl Lut {
         !self.averaged().is_empty()
     }
 
+    /// Whether a texel's numbers depend on n·v: averages over all directions do not.
+    pub fn depends_on_nov(&self) -> bool {
+        match self {
+            Lut::Energy(energy) => energy.channels() != EnergyChannels::Average,
+            Lut::Glass(glass) => {
+                !matches!(glass.channels(), GlassChannels::Average | GlassChannels::LostShare)
+            }
+            Lut::Dfg(_) | Lut::Diffuse(_) => true,
+        }
+    }
+
     /// Whose integrals a texel needs averaged over all directions, in the order of the averages.
     pub fn averaged(&self) -> Vec<Integrand> {
         match self {
+            Lut::Energy(energy) if energy.channels() == EnergyChannels::Turquin => Vec::new(),
             Lut::Energy(_) => vec![self.integrand()],
             Lut::Glass(glass) => glass.averaged().into_iter().map(Integrand::Glass).collect(),
             Lut::Dfg(_) | Lut::Diffuse(_) => Vec::new(),

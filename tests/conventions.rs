@@ -355,3 +355,22 @@ fn glass_exact_fresnel_and_energy_are_told_with_their_numbers() {
         assert!(report.channels.iter().all(|c| c.stored.largest < 1e-3), "{words}");
     }
 }
+
+#[test]
+fn averages_of_a_row_are_told() {
+    for words in [
+        "--lut energy --model ggx --masking height-correlated --channels average",
+        "--model ggx --masking separable --channels e_avg",
+        "--lut glass --model ggx --masking height-correlated --channels average --side outside \
+         --ior 1.5",
+    ] {
+        let axes = "--x roughness,linear,edges --y nov,linear,centres";
+        let report =
+            verify("t", &baked(&format!("{words} --size 32x1 {axes}")), &Demands::default());
+        let report = report.unwrap();
+        assert_eq!(report.status, Status::Known, "{words}: {:?}", report.distance);
+        let command = report.convention.as_ref().and_then(|convention| convention.command.clone());
+        let start = format!("splitsum bake {words} --size 32x1 --x roughness,linear,edges");
+        assert!(command.as_ref().is_some_and(|c| c.starts_with(&start)), "{words}: {command:?}");
+    }
+}

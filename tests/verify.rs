@@ -163,6 +163,11 @@ fn a_table_is_converted_by_a_bake() {
     let refused = run(&folder, "convert n.raw n.ktx2 --raw 16x16,rg16f --preset bevy");
     assert_eq!(refused.status.code(), Some(4));
     assert!(!folder.path().join("n.ktx2").exists());
+    // Glass is no table of Bevy's.
+    ok(&folder, "bake -q --lut glass --ior 1.5 --size 24 --precision f16 --format raw -o g.raw");
+    let refused = run(&folder, "convert g.raw g.ktx2 --raw 24x24,rg16f --preset bevy");
+    assert_eq!(refused.status.code(), Some(4));
+    assert!(!folder.path().join("g.ktx2").exists());
     assert_eq!(
         run(&folder, "convert t.raw t.raw --raw 32x32,rg16f --preset bevy").status.code(),
         Some(2)

@@ -41,9 +41,9 @@ pub fn run(arguments: &ConvertArgs) -> Result<()> {
     let lobe = match (report.status, report.lobe) {
         (Status::Known, Some(lobe)) => lobe,
         (Status::Known, None) => {
-            let got = "a lobe that the values do not decide";
+            let got = "one of another family, or a lobe that the values do not decide";
             let cure = format!("bake what you want: splitsum bake --preset {preset}");
-            return Err(Error::bad_input(file, "a table of one lobe", got, cure));
+            return Err(Error::bad_input(file, "a split sum of one lobe", got, cure));
         }
         (Status::Unknown, _) => {
             let got = format!("none of {} that were tried", report.tried);

@@ -69,8 +69,8 @@ fn around(places: &[f64], i: usize, first: usize) -> [f64; 3] {
     [places[i.saturating_sub(1).max(first)], places[i], places[(i + 1).min(places.len() - 1)]]
 }
 
-/// Three places with the middles between them: in proportion where they are far apart, as towards
-/// the corner 0.
+/// Three places with the middles between them: in proportion where they are far apart, as towards 0
+/// on an axis that is crowded there.
 fn halved([low, at, high]: [f64; 3]) -> [f64; 5] {
     let middle =
         |a: f64, b: f64| if a > 0.0 && b > 2.0 * a { (a * b).sqrt() } else { 0.5 * (a + b) };

@@ -9,7 +9,7 @@ use crate::lut::{Dfg, DfgChannels, Lut};
 
 /// The error of integrals that will do: hypotheses that matter differ by more, and most points err
 /// by far less than the bound.
-const TOLERANCE: f64 = 1e-3;
+pub const TOLERANCE: f64 = 1e-3;
 
 /// The split sum of a lobe by Schlick's Fresnel: A, B, E.
 fn split_sum(lobe: Microfacet) -> Result<Truth> {

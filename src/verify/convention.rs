@@ -8,7 +8,7 @@ use super::sample::Quantity;
 use crate::brdf::Fresnel;
 use crate::foreign::Foreign;
 use crate::integrate::Integrand;
-use crate::lut::{Glass, GlassChannels, Lut, Packing};
+use crate::lut::{EnergyChannels, Glass, GlassChannels, Lut, Packing};
 use crate::request::Request;
 use crate::table::axis::{AxisSpec, Nodes};
 use crate::table::precision::Precision;
@@ -180,6 +180,14 @@ fn family(meanings: &[Meaning]) -> Option<String> {
         meanings.iter().enumerate().rposition(|(place, meaning)| !filled(place, meaning))?;
     let numbers: Vec<(Lut, Quantity)> =
         meanings[..=count].iter().map(number).collect::<Option<_>>()?;
+    // One average has a word among the terms of a split sum.
+    if let [(Lut::Energy(energy), quantity @ Quantity::Channel(_))] = numbers[..]
+        && energy.channels() == EnergyChannels::Average
+    {
+        let lobe = energy.lobe();
+        let word = super::decision::word(&numbers[0].0, quantity);
+        return Some(format!("--model {} --masking {} --channels {word}", lobe.ndf, lobe.masking));
+    }
     let lut = match (numbers[0], numbers.len()) {
         // One of a pair has a word of its own.
         ((Lut::Glass(glass), Quantity::Channel(channel)), 1)

@@ -104,7 +104,11 @@ pub fn word(lut: &Lut, quantity: Quantity) -> String {
         Quantity::Channel(channel) => name(channel),
         Quantity::Complement(channel) => {
             let name = name(channel);
-            name.strip_prefix("1-").map_or_else(|| format!("1-{name}"), str::to_owned)
+            match name.strip_prefix("1-") {
+                Some(rest) => rest.to_owned(),
+                None if name.contains('+') && !name.starts_with('(') => format!("1-({name})"),
+                None => format!("1-{name}"),
+            }
         }
     }
 }

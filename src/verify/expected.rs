@@ -6,6 +6,7 @@ use super::errors::Convention;
 use super::fault::{Fault, Kind};
 use super::layout::Layout;
 use super::meaning::Meaning;
+use crate::brdf::Fresnel;
 use crate::foreign::Foreign;
 use crate::integrate::Integrand;
 use crate::request::Request;
@@ -100,6 +101,12 @@ impl Expected {
             }
         }
         let main = self.request.packing().main().integrand();
+        if let (Some(theirs), Some(wanted)) = (fresnel(own), fresnel(main))
+            && theirs != wanted
+            && decided("family")
+        {
+            differ(Kind::WrongFresnel, "Fresnel is", theirs, wanted);
+        }
         let count = table.components().max(self.request.layout().channels.len());
         for (place, wanted) in self.meanings(0, count, 0.0).iter().enumerate() {
             let theirs = found.meanings.get(place).unwrap_or(&Meaning::Unknown);
@@ -118,6 +125,15 @@ impl Expected {
             differ(Kind::WrongCurve, "values are", got, wanted);
         }
         faults
+    }
+}
+
+/// The Fresnel model of a specular lobe; a tint leaves Schlick's A and B as they are.
+fn fresnel(integrand: Integrand) -> Option<String> {
+    match integrand {
+        Integrand::Specular(_, Fresnel::Schlick | Fresnel::SchlickF82) => Some("schlick".into()),
+        Integrand::Specular(_, other) => Some(other.to_string()),
+        Integrand::Glass(_) | Integrand::Diffuse(_) => None,
     }
 }
 

@@ -27,7 +27,7 @@ const REFLECTANCES: [f64; 12] =
 /// Exponents of Schlick's approximation from which a fit begins.
 const EXPONENTS: [f64; 3] = [3.5, 4.5, 6.0];
 
-/// A table of these channels, by the lobe that nearly all tables have.
+/// A table of each family with so many channels, by lobes that nearly all tables have.
 pub fn families(channels: usize) -> Result<Vec<Truth>> {
     let lobe = Microfacet::new(Ndf::Ggx, Some(Masking::HeightCorrelated))?;
     let mut luts = Vec::new();
@@ -49,10 +49,10 @@ pub fn families(channels: usize) -> Result<Vec<Truth>> {
         }
     }
     if channels == 1 {
-        // Of other metals the layout is told by these, which are far apart.
-        let metals = ["gold", "iron", "aluminium"].into_iter().filter_map(metal).flatten();
-        for metal in metals.step_by(2) {
-            luts.push(dfg(lobe, Fresnel::Conductor(metal))?);
+        // Of other metals the layout is told by these in red and blue, which are far apart.
+        for [red, _, blue] in ["gold", "iron", "aluminium"].into_iter().filter_map(metal) {
+            luts.push(dfg(lobe, Fresnel::Conductor(red))?);
+            luts.push(dfg(lobe, Fresnel::Conductor(blue))?);
         }
     }
     for exponent in EXPONENTS {
@@ -103,7 +103,9 @@ fn dfg(lobe: Microfacet, fresnel: Fresnel) -> Result<Lut> {
 
 /// The numbers of a texel that a channel may be.
 pub fn numbers(lut: &Lut) -> Vec<Quantity> {
-    let channels = || (0..lut.channels().len()).map(Quantity::Channel);
+    let count = lut.channels().len();
+    let channels = || (0..count).map(Quantity::Channel);
+    let both = || channels().chain((0..count).map(Quantity::Complement)).collect();
     match lut {
         Lut::Dfg(dfg) if dfg.fresnel().count() > 1 => NUMBERS.to_vec(),
         Lut::Dfg(_) | Lut::Diffuse(_) => channels().collect(),
@@ -111,16 +113,10 @@ pub fn numbers(lut: &Lut) -> Vec<Quantity> {
             // What an interface leaves is 1 less what it reflects, which is a table of its own.
             EnergyChannels::Split if energy.ior().is_some() => channels().collect(),
             EnergyChannels::Turquin => channels().collect(),
-            EnergyChannels::Split | EnergyChannels::Average | EnergyChannels::KullaConty => {
-                let complements = (0..lut.channels().len()).map(Quantity::Complement);
-                channels().chain(complements).collect()
-            }
+            EnergyChannels::Split | EnergyChannels::Average | EnergyChannels::KullaConty => both(),
         },
         Lut::Glass(glass) => match glass.channels() {
-            GlassChannels::Total | GlassChannels::KullaConty => {
-                let complements = (0..lut.channels().len()).map(Quantity::Complement);
-                channels().chain(complements).collect()
-            }
+            GlassChannels::Total | GlassChannels::KullaConty => both(),
             _ => channels().collect(),
         },
     }
@@ -133,10 +129,14 @@ pub fn fine(hypothesis: Hypothesis) -> Hypothesis {
 }
 
 /// The distance beyond which a table is none that is known. Of split sums that are known the
-/// farthest lay at 0.013, of an LTC fit and two of sheen the nearest at 0.07; one channel alone is
-/// as near as 0.02 to that of other families. Where a number is fitted, or a metal chosen, much is
-/// alike. `rounding`: what the steps of a file are off by on the average.
-pub fn farthest(nearest: &Hypothesis, rounding: f64) -> f64 {
+/// farthest lay at 0.013, of two of sheen by other lobes the nearest at 0.07, of an LTC fit at 0.1;
+/// one channel alone is as near as 0.02 to that of other families. Where a number is fitted, or a
+/// metal chosen, much is alike. `rounding`: what the steps of a file are off by on the average, in
+/// each channel.
+pub fn farthest(nearest: &Hypothesis, rounding: &[f64]) -> f64 {
+    let of = |&(channel, _): &(usize, Quantity)| rounding.get(channel).copied().unwrap_or(0.0);
+    let packing = &nearest.packing;
+    let rounding = packing.iter().map(of).sum::<f64>() / packing.len().max(1) as f64;
     match (is_split_sum(nearest.truth), nearest.packing.len()) {
         (true, 1) => 0.01 + rounding,
         (true, _) => 0.03,

@@ -29,6 +29,7 @@ pub enum Kind {
     Biased,
     WrongMasking,
     WrongDistribution,
+    WrongFresnel,
     WrongChannels,
     WrongMapping,
     WrongSize,
@@ -51,6 +52,7 @@ choice!(Kind, "fault", {
     Biased = "biased", "values are too large, or too small, nearly everywhere";
     WrongMasking = "wrong-masking", "the masking is not that of the engine";
     WrongDistribution = "wrong-distribution", "the distribution is not that of the engine";
+    WrongFresnel = "wrong-fresnel", "Fresnel's reflectance is not that of the engine";
     WrongChannels = "wrong-channels", "channels are not those of the engine";
     WrongMapping = "wrong-mapping", "the mapping of an axis is not that of the engine";
     WrongSize = "wrong-size", "the engine reads a table of another size alone";

@@ -1,5 +1,6 @@
 //! The offsets of both axes' nodes as numbers: where the texels of a table say that they lie.
 
+use super::candidates::TOLERANCE;
 use super::layout::Layout;
 use super::sample::{Packing, Sample};
 use super::search::points;
@@ -26,6 +27,10 @@ pub fn offsets(
     else {
         return None;
     };
+    if !truth.lut.depends_on_nov() {
+        return None;
+    }
+    let truth = Truth { tolerance: truth.tolerance.max(TOLERANCE), ..truth };
     let [xs, ys] = &sample.texels;
     let distance = |[nov, roughness]: [f64; 2]| {
         let layout = layout.with_nodes([Nodes::Offset(nov), Nodes::Offset(roughness)]);

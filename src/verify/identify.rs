@@ -10,6 +10,7 @@ use super::family::number::{neighbours, parameter, tuned};
 use super::family::seek::seek;
 use super::family::{fine, is_split_sum};
 use super::layout::{Layout, NODES};
+use super::quantisation::rounding;
 use super::refinement::{Refined, Refinement};
 use super::sample::{FLOOR, Quantity, Sample, distance};
 use super::search::{EveryLayout, Hypothesis, nearest, points, with_lobes};
@@ -77,7 +78,7 @@ pub fn identify(table: &Foreign, slice: usize) -> Result<Option<Identity>> {
     for (step, layouts_by) in [likely()?, unlikely()?, sheen()?].into_iter().enumerate() {
         lobes = split_sums(step == 2)?;
         for truth in layouts_by {
-            let surface = Surface::new(truth, true);
+            let surface = Surface::new(truth);
             let every = EveryLayout::of_surface(&surface, size, &few[0], &NODES);
             for (found, sample) in found.iter_mut().zip(&few) {
                 found.extend(every.hypotheses(sample, false));
@@ -104,7 +105,8 @@ pub fn identify(table: &Foreign, slice: usize) -> Result<Option<Identity>> {
     let some = Sample::new(table, slice, decodings[k], &lists[k], SOME);
     let search = Refinement { lobes: &lobes, size, few: &few[k], some: &some, many: &many };
     let Some(split_sum) = search.from(&nearest_of[k]) else { return Ok(None) };
-    let (refined, family) = contest(&search, split_sum, &families[k]);
+    let rounding = rounding(table, &lists[k]);
+    let (refined, family) = contest(&search, split_sum, &families[k], &rounding);
     let Refined { layout, every, nodes, by_nodes, lobe, by_lobe } = refined;
     let mut decisions = vec![encoding];
     decisions.extend(family);
@@ -112,9 +114,9 @@ pub fn identify(table: &Foreign, slice: usize) -> Result<Option<Identity>> {
     decisions.extend(decide(&decision::NODES, &nodes, &by_nodes));
     decisions.extend(decide(&decision::LOBE, &lobe, &by_lobe));
     let lobe = if is_split_sum(lobe.truth) { lobe } else { tuned(fine(lobe), size, &some) };
-    // Of an axis with one texel nothing is told.
-    let alone = if lobe.layout.is_transposed() { size[1] } else { size[0] } == 1;
-    decisions.retain(|decision| !alone || !decision.dimension.ends_with("of nov"));
+    // Where all n·v are alike nothing is told of that axis.
+    let told = lobe.truth.lut.depends_on_nov();
+    decisions.retain(|decision| told || !decision.dimension.ends_with("of nov"));
     decisions.extend(number(&lobe, size, &some));
     let channels = lists[k].clone();
     // Each with every pair of channels.

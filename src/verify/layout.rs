@@ -14,6 +14,9 @@ pub const NODES: [Nodes; 6] = [
     Nodes::Offset(-0.5),
 ];
 
+/// The first of them that nearly all tables have.
+pub const COMMON_NODES: usize = 2;
+
 const COSINES: [(Parameter, Mapping); 3] = [
     (Parameter::Nov, Mapping::Linear),
     (Parameter::Nov, Mapping::Sqrt),

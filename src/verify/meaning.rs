@@ -103,9 +103,9 @@ impl Meaning {
         matches!(self, Meaning::Number { .. } | Meaning::Nov | Meaning::Roughness)
     }
 
-    /// Whether it is of a table with averages over all directions.
-    pub fn has_averages(&self) -> bool {
-        matches!(self, Meaning::Number { truth, .. } if !truth.lut.averaged().is_empty())
+    /// Whether it is of a table that needs averages over all directions.
+    pub fn needs_averages(&self) -> bool {
+        matches!(self, Meaning::Number { truth, .. } if truth.lut.needs_averages())
     }
 
     /// Whether it is an albedo that nothing may lift above 1.

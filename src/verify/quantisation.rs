@@ -1,5 +1,6 @@
 //! The steps on which the numbers of a file lie, which may be coarser than its storage.
 
+use super::channel::Channel;
 use crate::foreign::Foreign;
 use crate::numeric::half;
 use crate::table::precision::Precision;
@@ -31,4 +32,15 @@ pub fn quantisation(table: &Foreign) -> Precision {
         Precision::F32 if held(|value| on_steps(value, 65535.0)) => Precision::Unorm16,
         storage => storage,
     }
+}
+
+/// What the steps of a file are off by on the average, a quarter of a step, in units of each
+/// channel's spread.
+pub fn rounding(table: &Foreign, channels: &[Channel]) -> Vec<f64> {
+    let step = match quantisation(table) {
+        Precision::Unorm8 => 1.0 / 255.0,
+        Precision::Unorm16 => 1.0 / 65535.0,
+        _ => 0.0,
+    };
+    channels.iter().map(|channel| 0.25 * step / channel.spread).collect()
 }

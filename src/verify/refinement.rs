@@ -1,11 +1,9 @@
-//! The nearest convention in turns: a lobe tells the layout, the layout the nodes, the nodes the
-//! lobe.
+//! From the nearest hypothesis by few texels to the nearest convention, in turns.
 
 use super::decision;
 use super::family::number::tuned;
-use super::family::seek::COMMON_NODES;
 use super::family::{is_split_sum, metals, relatives};
-use super::layout::{Layout, NODES};
+use super::layout::{COMMON_NODES, Layout, NODES};
 use super::sample::{FLOOR, Sample};
 use super::search::{EveryLayout, Hypothesis, nearest, with_layouts, with_lobes};
 use super::surface::Surface;
@@ -58,6 +56,7 @@ impl Refinement<'_> {
     /// From what is nearest so far.
     pub fn from(&self, first: &Hypothesis) -> Option<Refined> {
         match (first.distance < HOPELESS, is_split_sum(first.truth)) {
+            // Another family too is told by split sums then: none of it is known.
             (false, _) => Refinement { many: self.few, ..*self }.by(first.truth, true),
             (true, true) => self.of_split_sum(first.truth),
             (true, false) => self.of_family(first.truth),
@@ -111,14 +110,12 @@ impl Refinement<'_> {
         last
     }
 
-    /// One turn, with the layouts of this lobe, whose integrals at all of them may take long.
+    /// One turn, with the layouts of this lobe: by a surface where their integrals would take long.
     fn by(&self, truth: Truth, by_surface: bool) -> Option<Refined> {
         let Refinement { lobes, size, few, many, .. } = *self;
         let nodes = if is_split_sum(truth) { &NODES[..] } else { &NODES[..COMMON_NODES] };
         let every = match by_surface {
-            true => {
-                EveryLayout::of_surface(&Surface::new(truth, !size.contains(&1)), size, few, nodes)
-            }
+            true => EveryLayout::of_surface(&Surface::new(truth), size, few, nodes),
             false => EveryLayout::new(truth, size, few, nodes),
         };
         let every = every.hypotheses(few, true);

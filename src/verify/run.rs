@@ -6,7 +6,7 @@ use super::decision::{self, Decision};
 use super::decoding::Decoding;
 use super::errors::{Convention, Differences, TOLERANCE};
 use super::expected::Expected;
-use super::family::farthest;
+use super::family::{farthest, is_split_sum};
 use super::fault::{self, Fault, Kind};
 use super::fingerprint::{Fingerprint, Suspect, fingerprint};
 use super::fit::offsets;
@@ -14,14 +14,13 @@ use super::identify::{Identity, MANY, identify};
 use super::layout::Layout;
 use super::meaning::Meaning;
 use super::others::meanings;
-use super::quantisation::quantisation;
+use super::quantisation::{quantisation, rounding};
 use super::refinement::around;
 use super::report::{ChannelReport, FileFacts, Report, Status};
 use super::sample::Sample;
 use crate::error::Result;
 use crate::foreign::Foreign;
 use crate::integrate::Integrand;
-use crate::table::precision::Precision;
 use std::time::Instant;
 
 /// The distance beyond which a table is none that its metadata name.
@@ -39,19 +38,6 @@ pub struct Demands {
     pub expected: Option<Expected>,
 }
 
-/// What the steps of a file are off by on the average, in units of the channels' spreads: a quarter
-/// of a step.
-fn rounding(table: &Foreign, identity: &Identity) -> f64 {
-    let step = match quantisation(table) {
-        Precision::Unorm8 => 1.0 / 255.0,
-        Precision::Unorm16 => 1.0 / 65535.0,
-        _ => return 0.0,
-    };
-    let packing = &identity.nearest.packing;
-    let of = |&(channel, _): &(usize, _)| 0.25 * step / identity.channels[channel].spread;
-    packing.iter().map(of).sum::<f64>() / packing.len().max(1) as f64
-}
-
 /// The report of a table.
 pub fn verify(name: &str, table: &Foreign, demands: &Demands) -> Result<Report> {
     let start = Instant::now();
@@ -62,7 +48,7 @@ pub fn verify(name: &str, table: &Foreign, demands: &Demands) -> Result<Report> 
             report.tried = identity.tried;
             report.decisions.clone_from(&identity.decisions);
             report.file.channels.clone_from(&identity.channels);
-            let most = farthest(&identity.nearest, rounding(table, &identity));
+            let most = farthest(&identity.nearest, &rounding(table, &identity.channels));
             match identity.nearest.distance <= most {
                 true => Some(describe(&mut report, table, identity)?),
                 false => None,
@@ -295,9 +281,9 @@ fn describe(report: &mut Report, table: &Foreign, identity: Identity) -> Result<
     };
     report.lobe = match lut.integrand() {
         _ if decisions.iter().any(undecided) => None,
-        Integrand::Specular(lobe, _) => Some(lobe),
-        Integrand::Glass(interface) => Some(interface.lobe()),
-        Integrand::Diffuse(_) => None,
+        // Of another family an engine's table would be another one.
+        Integrand::Specular(lobe, _) if is_split_sum(nearest.truth) => Some(lobe),
+        _ => None,
     };
     report.decisions = decisions;
     Ok(found)

@@ -17,10 +17,11 @@ const PLACES: usize = 260;
 /// Rows from whose worst places the search for the largest error climbs.
 const CLIMBERS: usize = 24;
 
-/// The same of tables with averages, which cost as much as a row each.
+/// The same for tables with averages: each new row costs as many integrals as its averages need.
 const CLIMBERS_BY_ROW: usize = 4;
 
-/// Steps of a climb; each halves the distance between the places, which is half a texel at first.
+/// Steps of a climb; each halves the distance between the places, which is half a texel at first,
+/// or more where a side has many texels.
 const STEPS: usize = 8;
 
 /// A lookup of one channel.
@@ -101,7 +102,7 @@ impl Convention<'_> {
             let amounts = pairs.map(|(value, truth)| (value - truth).abs());
             Ok(amounts.map(|amount| if amount.is_finite() { amount } else { 0.0 }).collect())
         };
-        let count = if meaning.has_averages() { CLIMBERS_BY_ROW } else { CLIMBERS };
+        let count = if meaning.needs_averages() { CLIMBERS_BY_ROW } else { CLIMBERS };
         let climbers = climb(starts, count, STEPS, amounts)?;
         if let Some(top) = climbers.first().filter(|top| top.value > errors.largest) {
             let texel = (top.x[1], top.y[1]);

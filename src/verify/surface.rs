@@ -20,8 +20,8 @@ pub struct Surface {
 
 impl Surface {
     /// For a table that does not depend on n·v one column does.
-    pub fn new(truth: Truth, depends_on_nov: bool) -> Self {
-        let columns = if depends_on_nov { COSINES } else { 1 };
+    pub fn new(truth: Truth) -> Self {
+        let columns = if truth.lut.depends_on_nov() { COSINES } else { 1 };
         let values = truth.on_grid(&squares(columns), &squares(WIDTHS));
         Surface { truth, columns, values }
     }

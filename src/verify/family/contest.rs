@@ -1,27 +1,31 @@
 //! Whether a table is a split sum or of another family.
 
-use super::kind;
+use super::{farthest, kind};
 use crate::brdf::Fresnel;
 use crate::verify::decision::{self, DECIDED, Decision};
 use crate::verify::refinement::{Refined, Refinement};
 use crate::verify::sample::{FLOOR, Quantity};
 use crate::verify::search::Hypothesis;
 
-/// A split sum is one with another exponent of Schlick's approximation where that is so many times
-/// nearer: a number that is fitted suits noise too.
+/// A split sum is one with another exponent of Schlick's approximation, or of a family that is not
+/// known, where that is so many times nearer: a number that is fitted suits noise too.
 const GAIN: f64 = 3.0;
 
-/// The split sum, or what is nearer than it, refined; and what is decided of that where other
-/// families were found, the nearest first.
+/// Of split sums that are known the farthest lay at 0.013.
+const KNOWN: f64 = 0.015;
+
+/// The split sum, or what is nearer than it, refined; and what is decided of that where there are
+/// other families. `families`: the nearest first; `rounding`: as [`farthest`] has it.
 pub fn contest(
     search: &Refinement,
     split_sum: Refined,
     families: &[Hypothesis],
+    rounding: &[f64],
 ) -> (Refined, Option<Decision>) {
     let nearer = |family: &Hypothesis, gain: f64| {
         gain * (family.distance + FLOOR) < split_sum.lobe.distance + FLOOR
     };
-    // Another exponent that is no nearer than noise makes it is no rival.
+    // A fitted exponent is always a little nearer, by noise alone.
     let is_rival = |family: &&Hypothesis| match is_of_another_exponent(family) {
         true => !is_same_for_every_exponent(family) && nearer(family, DECIDED),
         false => true,
@@ -34,7 +38,13 @@ pub fn contest(
         nearer(family, if is_of_another_exponent(family) { GAIN } else { DECIDED })
     };
     let winner = rivals.iter().find(|family| wins(family));
-    let winner = winner.and_then(|family| search.from(family)).filter(|found| wins(&found.lobe));
+    // A family that is nearer by little and too far to be known leaves a split sum that may be.
+    let counts = |found: &Refined| {
+        let is_known = found.lobe.distance <= farthest(&found.lobe, rounding);
+        let may_be = split_sum.lobe.distance < KNOWN && !nearer(&found.lobe, GAIN);
+        wins(&found.lobe) && (is_known || !may_be)
+    };
+    let winner = winner.and_then(|family| search.from(family)).filter(counts);
     let family = |hypothesis: &Hypothesis| kind(&hypothesis.truth.lut);
     let split_sums = (family(&split_sum.lobe), split_sum.lobe.distance);
     let refined = winner.unwrap_or(split_sum);

@@ -9,8 +9,11 @@ use crate::verify::sample::{FLOOR, Sample};
 use crate::verify::search::{Hypothesis, points};
 use crate::verify::truth::Truth;
 
-/// The exponents of Schlick's approximation that are sought.
-const EXPONENTS: (f64, f64) = (1.0, 20.0);
+/// The exponents of Schlick's approximation that are sought, which are all that there are.
+const EXPONENT: (f64, f64) = (1.0, 20.0);
+
+/// The F0s that are sought: of 1 nothing is left.
+const REFLECTANCE: (f64, f64) = (0.0, 0.99);
 
 /// The indices that are sought: beyond, the inside of glass is no other than a mirror.
 const INDEX: (f64, f64) = (1.0, 6.0);
@@ -18,11 +21,11 @@ const INDEX: (f64, f64) = (1.0, 6.0);
 /// The share by which fewer digits may be farther off.
 const SHORTER: f64 = 1.1;
 
-/// Steps of a fit; each leaves 0.618 of the interval.
-const STEPS: usize = 18;
+/// Steps of a fit, each of which leaves 0.618 of the interval: they leave 3e-4 of the number.
+const STEPS: usize = 20;
 
 /// The most digits behind the point of a fitted number.
-const DIGITS: usize = 4;
+const DIGITS: usize = 3;
 
 /// The share of a fitted number by which another has to differ to be told apart from it.
 const APART: f64 = 0.02;
@@ -32,12 +35,12 @@ pub fn parameter(lut: &Lut) -> Option<(&'static str, f64, (f64, f64))> {
     match lut {
         Lut::Dfg(dfg) => match dfg.fresnel() {
             Fresnel::Dielectric(medium) => Some(("ior", medium.ior(), INDEX)),
-            Fresnel::SchlickPower(power) => Some(("exponent", power.exponent(), EXPONENTS)),
+            Fresnel::SchlickPower(power) => Some(("exponent", power.exponent(), EXPONENT)),
             _ => None,
         },
         Lut::Glass(_) | Lut::Energy(_) => match (lut.ior(), lut.f0()) {
             (Some(ior), _) => Some(("ior", ior, INDEX)),
-            (_, Some(f0)) => Some(("f0", f0, (0.0, 0.99))),
+            (_, Some(f0)) => Some(("f0", f0, REFLECTANCE)),
             _ => None,
         },
         Lut::Diffuse(_) => None,
@@ -45,13 +48,16 @@ pub fn parameter(lut: &Lut) -> Option<(&'static str, f64, (f64, f64))> {
 }
 
 /// The same table for another number.
-pub fn with_parameter(truth: Truth, value: f64) -> Result<Truth> {
+fn with_parameter(truth: Truth, value: f64) -> Result<Truth> {
     let lut = match truth.lut {
         Lut::Dfg(dfg) => match dfg.fresnel() {
             Fresnel::Dielectric(_) => {
                 truth.lut.with_fresnel(Fresnel::Dielectric(Dielectric::new(value)?))?
             }
-            _ => truth.lut.with_fresnel(Fresnel::SchlickPower(SchlickPower::new(value)?))?,
+            Fresnel::SchlickPower(_) => {
+                truth.lut.with_fresnel(Fresnel::SchlickPower(SchlickPower::new(value)?))?
+            }
+            _ => truth.lut,
         },
         // Below 1 an index is another side's.
         lut if lut.ior().is_some() => lut.at(Parameter::Ior, value.max(1.0))?,
@@ -60,18 +66,21 @@ pub fn with_parameter(truth: Truth, value: f64) -> Result<Truth> {
     Ok(Truth { lut, ..truth })
 }
 
-/// A hypothesis with the number at which it is nearest to a sample, to as few digits as do; as it
-/// is where it has none. The golden section (Kiefer 1953) of a logarithmic scale, about the number
+/// A hypothesis with the number at which it is nearest to a sample, to as few digits as do, and its
+/// distance. The golden section (Kiefer 1953) of a logarithmic scale, about the number
 /// that it has.
 pub fn tuned(hypothesis: Hypothesis, size: [usize; 2], sample: &Sample) -> Hypothesis {
-    let Some((_, value, ends)) = parameter(&hypothesis.truth.lut) else { return hypothesis };
     let [xs, ys] = &sample.texels;
     let points = points(&hypothesis.layout, size, [xs, ys]);
+    let Some((_, value, ends)) = parameter(&hypothesis.truth.lut) else {
+        let distance = sample.distance(&hypothesis.truth.at(&points), &hypothesis.packing);
+        return Hypothesis { distance, ..hypothesis };
+    };
     let at = |value: f64| {
         let Ok(truth) = with_parameter(hypothesis.truth, value) else { return f64::INFINITY };
         sample.distance(&truth.at(&points), &hypothesis.packing)
     };
-    // Of what lies above the lower end, twice and half as much.
+    // Of what lies above the lower end, from a twelfth to 4.5 times as much.
     let above = (value - ends.0).max(0.02);
     let number = |t: f64| (ends.0 + above * t.exp()).min(ends.1);
     let (mut low, mut high) = (-2.5, 1.5);

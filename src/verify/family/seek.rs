@@ -4,16 +4,14 @@ use super::number::tuned;
 use super::{averages, families, kind, metals, relatives};
 use crate::error::Result;
 use crate::lut::Lut;
-use crate::verify::layout::{Layout, NODES};
+use crate::verify::layout::{COMMON_NODES, Layout, NODES};
 use crate::verify::sample::Sample;
 use crate::verify::search::{EveryLayout, Hypothesis, nearest, with_layouts};
 use crate::verify::surface::Surface;
+use std::cell::Cell;
 
 /// The least texels of the longer axis by which a number can be fitted.
 const LEAST_SIDE: usize = 8;
-
-/// The nodes with which other families are sought.
-pub const COMMON_NODES: usize = 2;
 
 /// The hypotheses of each kind whose own number is fitted.
 const FITTED: usize = 2;
@@ -42,14 +40,13 @@ pub struct Found {
 pub fn seek(size: [usize; 2], samples: &[&Sample]) -> Result<Found> {
     let mut found = Found { nearest: vec![Vec::new(); samples.len()], tried: 0 };
     let alone = size.contains(&1);
-    // Two columns tell no axis.
+    // Two columns, or two rows, tell no axis.
     if size[0].max(size[1]) < LEAST_SIDE || size.contains(&2) {
         return Ok(found);
     }
     let channels = samples.iter().map(|sample| sample.live()).max().unwrap_or(0);
     let sought = if alone { averages()? } else { families(channels)? };
-    let surfaces: Vec<Surface> =
-        sought.into_iter().map(|truth| Surface::new(truth, !alone)).collect();
+    let surfaces: Vec<Surface> = sought.into_iter().map(Surface::new).collect();
     for (place, &sample) in samples.iter().enumerate() {
         let mut hypotheses = Vec::new();
         for surface in &surfaces {
@@ -58,18 +55,22 @@ pub fn seek(size: [usize; 2], samples: &[&Sample]) -> Result<Found> {
             found.tried += every.len();
             hypotheses.extend(nearest(&every).cloned());
         }
-        found.nearest[place] = by_number(hypotheses, size, sample, &mut found.tried);
+        let (nearest, tried) = by_number(hypotheses, size, sample);
+        found.nearest[place] = nearest;
+        found.tried += tried;
     }
     Ok(found)
 }
 
-/// The nearest of these with the number that suits it, and of its lobes.
+/// These with the numbers, layouts and lobes that suit them, the nearest first; and the number of
+/// those that were tried.
 fn by_number(
     mut hypotheses: Vec<Hypothesis>,
     size: [usize; 2],
     sample: &Sample,
-    tried: &mut usize,
-) -> Vec<Hypothesis> {
+) -> (Vec<Hypothesis>, usize) {
+    let tried = Cell::new(0);
+    let count = |more: usize| tried.set(tried.get() + more);
     sort(&mut hypotheses);
     hypotheses.retain(|hypothesis| hypothesis.distance < FARTHEST_AT_FIRST);
     let mut kinds: Vec<String> = Vec::new();
@@ -78,26 +79,28 @@ fn by_number(
         kinds.push(own.clone());
         kinds.iter().filter(|other| **other == own).count() <= FITTED
     });
-    let mut suited = |hypothesis: Hypothesis| {
+    let suited = |hypothesis: Hypothesis| {
         let of = |&metal| with_layouts(metal, &[hypothesis.layout], size, sample);
         let metals: Vec<Hypothesis> = metals(hypothesis.truth).iter().flat_map(of).collect();
-        *tried += metals.len().max(1);
+        count(metals.len().max(1));
         let nearest = nearest(&metals).cloned();
         nearest.unwrap_or_else(|| tuned(hypothesis, size, sample))
     };
-    let mut hypotheses: Vec<Hypothesis> = hypotheses.into_iter().map(&mut suited).collect();
+    let mut hypotheses: Vec<Hypothesis> = hypotheses.into_iter().map(&suited).collect();
     sort(&mut hypotheses);
     // Number and lobe tell the layout, which tells number and lobe.
     for _ in 0..TURNS {
         let before = nearest(&hypotheses).map(|hypothesis| hypothesis.distance);
         hypotheses.truncate(WITH_LOBES);
         let with_layout = |hypothesis: &Hypothesis| {
-            let surface = Surface::new(hypothesis.truth, !size.contains(&1));
+            let surface = Surface::new(hypothesis.truth);
             let every = EveryLayout::of_surface(&surface, size, sample, &NODES[..COMMON_NODES]);
-            nearest(&every.hypotheses(sample, false)).cloned()
+            let every = every.hypotheses(sample, false);
+            count(every.len());
+            nearest(&every).cloned()
         };
         let turned: Vec<Hypothesis> = hypotheses.iter().filter_map(with_layout).collect();
-        hypotheses.extend(turned.into_iter().map(&mut suited));
+        hypotheses.extend(turned.into_iter().map(&suited));
         sort(&mut hypotheses);
         hypotheses.retain(|hypothesis| hypothesis.distance < FARTHEST);
         let of_lobes = |hypothesis: &Hypothesis| {
@@ -107,15 +110,16 @@ fn by_number(
         };
         let mut lobes: Vec<Hypothesis> =
             hypotheses.iter().take(WITH_LOBES).flat_map(of_lobes).collect();
+        count(lobes.len());
         sort(&mut lobes);
         lobes.truncate(WITH_LOBES);
-        hypotheses.extend(lobes.into_iter().map(&mut suited));
+        hypotheses.extend(lobes.into_iter().map(&suited));
         sort(&mut hypotheses);
         if nearest(&hypotheses).map(|hypothesis| hypothesis.distance) >= before {
             break;
         }
     }
-    hypotheses
+    (hypotheses, tried.get())
 }
 
 /// The nearest first, each once.
