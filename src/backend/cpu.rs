@@ -90,8 +90,12 @@ impl Baker {
 
     /// The averages over all directions at each of these α.
     pub fn averages(&self, alphas: &[f64]) -> Field {
-        let nodes: Vec<_> =
-            alphas.iter().map(|&alpha| average_nodes_at(self.integrand, alpha)).collect();
+        self.averages_by(alphas, |alpha| average_nodes_at(self.integrand, alpha))
+    }
+
+    /// The same by these (n·v, weight) at an α.
+    pub fn averages_by(&self, alphas: &[f64], nodes_at: impl Fn(f64) -> Vec<(f64, f64)>) -> Field {
+        let nodes: Vec<_> = alphas.iter().map(|&alpha| nodes_at(alpha)).collect();
         let at = |(nodes, &alpha): (&Vec<(f64, f64)>, &f64)| {
             nodes.iter().map(move |&(mu, _)| (mu, alpha)).collect::<Vec<_>>()
         };

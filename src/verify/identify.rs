@@ -13,10 +13,11 @@ use super::layout::{Layout, NODES};
 use super::quantisation::rounding;
 use super::refinement::{Refined, Refinement};
 use super::sample::{FLOOR, Quantity, Sample, distance};
-use super::search::{EveryLayout, Hypothesis, nearest, points, with_lobes};
+use super::search::{EveryLayout, Hypothesis, nearest, points, sort, with_lobes};
 use super::surface::Surface;
 use crate::error::Result;
 use crate::foreign::Foreign;
+use crate::table::precision::Precision;
 use crate::units::short;
 
 /// Texels along each axis that tell layouts apart.
@@ -53,8 +54,9 @@ pub struct Identity {
     pub tried: usize,
 }
 
-/// The nearest hypothesis for a slice; none of a table without a channel that tells something.
-pub fn identify(table: &Foreign, slice: usize) -> Result<Option<Identity>> {
+/// The nearest hypothesis for a slice whose numbers lie on these steps; none of a table without a
+/// channel that tells something.
+pub fn identify(table: &Foreign, slice: usize, steps: Precision) -> Result<Option<Identity>> {
     let size = [table.size[0], table.size[1]];
     let few = |decoding: Decoding| {
         let channels = channels(table, slice, decoding);
@@ -85,7 +87,7 @@ pub fn identify(table: &Foreign, slice: usize) -> Result<Option<Identity>> {
             }
         }
         let of = |(found, sample): (&mut Vec<Hypothesis>, &Sample)| {
-            found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+            sort(found);
             nearest(&with_lobes(&lobes, &first_layouts(found, LAYOUTS), size, sample)).cloned()
         };
         nearest_of = found.iter_mut().zip(&few).filter_map(of).collect();
@@ -105,7 +107,7 @@ pub fn identify(table: &Foreign, slice: usize) -> Result<Option<Identity>> {
     let some = Sample::new(table, slice, decodings[k], &lists[k], SOME);
     let search = Refinement { lobes: &lobes, size, few: &few[k], some: &some, many: &many };
     let Some(split_sum) = search.from(&nearest_of[k]) else { return Ok(None) };
-    let rounding = rounding(table, &lists[k]);
+    let rounding = rounding(steps, &lists[k]);
     let (refined, family) = contest(&search, split_sum, &families[k], &rounding);
     let Refined { layout, every, nodes, by_nodes, lobe, by_lobe } = refined;
     let mut decisions = vec![encoding];

@@ -34,13 +34,12 @@ pub fn quantisation(table: &Foreign) -> Precision {
     }
 }
 
-/// What the steps of a file are off by on the average, a quarter of a step, in units of each
-/// channel's spread.
-pub fn rounding(table: &Foreign, channels: &[Channel]) -> Vec<f64> {
-    let step = match quantisation(table) {
-        Precision::Unorm8 => 1.0 / 255.0,
-        Precision::Unorm16 => 1.0 / 65535.0,
+/// What these steps are off by on the average, a quarter of a step, in units of each channel's
+/// spread; of floats nothing.
+pub fn rounding(steps: Precision, channels: &[Channel]) -> Vec<f64> {
+    let error = match steps {
+        Precision::Unorm8 | Precision::Unorm16 => 0.5 * steps.half_step(),
         _ => 0.0,
     };
-    channels.iter().map(|channel| 0.25 * step / channel.spread).collect()
+    channels.iter().map(|channel| error / channel.spread).collect()
 }

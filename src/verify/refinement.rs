@@ -5,7 +5,7 @@ use super::family::number::tuned;
 use super::family::{is_split_sum, metals, relatives};
 use super::layout::{COMMON_NODES, Layout, NODES};
 use super::sample::{FLOOR, Sample};
-use super::search::{EveryLayout, Hypothesis, nearest, with_layouts, with_lobes};
+use super::search::{EveryLayout, Hypothesis, nearest, sort, with_layouts, with_lobes};
 use super::surface::Surface;
 use super::truth::Truth;
 use crate::brdf::Ndf;
@@ -90,7 +90,6 @@ impl Refinement<'_> {
             let own = [truth];
             let mut found = Refinement { lobes: &own, many: self.some, ..*self }.by(truth, true)?;
             // Another number may suit other nodes.
-            found.by_nodes.sort_by(|a, b| a.distance.total_cmp(&b.distance));
             for hypothesis in found.by_nodes.iter_mut().take(LIKELY_NODES) {
                 *hypothesis = tuned(hypothesis.clone());
             }
@@ -120,13 +119,11 @@ impl Refinement<'_> {
         };
         let every = every.hypotheses(few, true);
         let layout = nearest(&every)?.clone();
-        let by_nodes = with_layouts(truth, &around(layout.layout), size, many);
-        let best = nearest(&by_nodes)?;
-        let nodes = with_likely_nodes(best, &by_nodes).clone();
-        let mut sorted: Vec<&Hypothesis> = by_nodes.iter().collect();
-        sorted.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+        let mut by_nodes = with_layouts(truth, &around(layout.layout), size, many);
+        sort(&mut by_nodes);
+        let nodes = with_likely_nodes(by_nodes.first()?, &by_nodes).clone();
         let mut layouts = vec![nodes.layout];
-        let others = sorted.iter().take(LIKELY_NODES).map(|other| other.layout);
+        let others = by_nodes.iter().take(LIKELY_NODES).map(|other| other.layout);
         layouts.extend(others.filter(|layout| *layout != nodes.layout));
         let by_lobe = with_lobes(lobes, &layouts, size, many);
         let lobe = nearest(&by_lobe)?;

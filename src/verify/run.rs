@@ -42,13 +42,14 @@ pub struct Demands {
 pub fn verify(name: &str, table: &Foreign, demands: &Demands) -> Result<Report> {
     let start = Instant::now();
     let mut report = report_of_file(name, table);
-    let found = match identify(table, 0)? {
+    let found = match identify(table, 0, report.file.steps)? {
         Some(identity) => {
             report.distance = Some(identity.nearest.distance);
             report.tried = identity.tried;
             report.decisions.clone_from(&identity.decisions);
             report.file.channels.clone_from(&identity.channels);
-            let most = farthest(&identity.nearest, &rounding(table, &identity.channels));
+            let most =
+                farthest(&identity.nearest, &rounding(report.file.steps, &identity.channels));
             match identity.nearest.distance <= most {
                 true => Some(describe(&mut report, table, identity)?),
                 false => None,

@@ -172,6 +172,11 @@ fn hypotheses(
     }
 }
 
+/// Puts the nearest first.
+pub fn sort(hypotheses: &mut [Hypothesis]) {
+    hypotheses.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+}
+
 /// The nearest of hypotheses.
 pub fn nearest(hypotheses: &[Hypothesis]) -> Option<&Hypothesis> {
     hypotheses.iter().min_by(|a, b| a.distance.total_cmp(&b.distance))

@@ -1,7 +1,6 @@
 //! What is true at a texel: the channels of a table of ours.
 
 use crate::backend::cpu::Baker;
-use crate::integrate::average::add_average;
 use crate::integrate::rule::Rule;
 use crate::integrate::rules::REFERENCE;
 use crate::integrate::{Field, Integrand};
@@ -76,7 +75,10 @@ impl Truth {
         let averaged = |integrand: Integrand| {
             let rule = Rule::for_cpu(integrand, self.tolerance, alphas.len()).unwrap_or(REFERENCE);
             let baker = Baker::new(integrand, &rule);
-            if self.tolerance < ROUGH { baker.averages(alphas) } else { rough(&baker, alphas) }
+            match self.tolerance < ROUGH {
+                true => baker.averages(alphas),
+                false => baker.averages_by(alphas, |_| few_directions()),
+            }
         };
         self.lut.averaged().into_iter().map(averaged).collect()
     }
@@ -112,19 +114,8 @@ impl Truth {
     }
 }
 
-/// The averages at each α by few directions.
-fn rough(baker: &Baker, alphas: &[f64]) -> Field {
-    let nodes: Vec<(f64, f64)> = gauss_legendre(DIRECTIONS)
-        .into_iter()
-        .map(|node| (node.at, 2.0 * node.at * node.weight))
-        .collect();
-    let row = |&alpha: &f64| nodes.iter().map(move |&(mu, _)| (mu, alpha)).collect::<Vec<_>>();
-    let integrals = baker.bake_points(&alphas.iter().flat_map(row).collect::<Vec<_>>());
-    let count = integrals.count();
-    let mut averages = Field::zeros(count, alphas.len());
-    let mut integrals = integrals.iter();
-    for sum in averages.values_mut().chunks_exact_mut(count) {
-        add_average(&nodes, integrals.by_ref(), sum);
-    }
-    averages
+/// (n·v, weight) of few directions.
+fn few_directions() -> Vec<(f64, f64)> {
+    let nodes = gauss_legendre(DIRECTIONS).into_iter();
+    nodes.map(|node| (node.at, 2.0 * node.at * node.weight)).collect()
 }

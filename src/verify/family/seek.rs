@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::lut::Lut;
 use crate::verify::layout::{COMMON_NODES, Layout, NODES};
 use crate::verify::sample::Sample;
-use crate::verify::search::{EveryLayout, Hypothesis, nearest, with_layouts};
+use crate::verify::search::{EveryLayout, Hypothesis, nearest, sort, with_layouts};
 use crate::verify::surface::Surface;
 use std::cell::Cell;
 
@@ -71,7 +71,7 @@ fn by_number(
 ) -> (Vec<Hypothesis>, usize) {
     let tried = Cell::new(0);
     let count = |more: usize| tried.set(tried.get() + more);
-    sort(&mut hypotheses);
+    sort_once(&mut hypotheses);
     hypotheses.retain(|hypothesis| hypothesis.distance < FARTHEST_AT_FIRST);
     let mut kinds: Vec<String> = Vec::new();
     hypotheses.retain(|hypothesis| {
@@ -87,7 +87,7 @@ fn by_number(
         nearest.unwrap_or_else(|| tuned(hypothesis, size, sample))
     };
     let mut hypotheses: Vec<Hypothesis> = hypotheses.into_iter().map(&suited).collect();
-    sort(&mut hypotheses);
+    sort_once(&mut hypotheses);
     // Number and lobe tell the layout, which tells number and lobe.
     for _ in 0..TURNS {
         let before = nearest(&hypotheses).map(|hypothesis| hypothesis.distance);
@@ -101,7 +101,7 @@ fn by_number(
         };
         let turned: Vec<Hypothesis> = hypotheses.iter().filter_map(with_layout).collect();
         hypotheses.extend(turned.into_iter().map(&suited));
-        sort(&mut hypotheses);
+        sort_once(&mut hypotheses);
         hypotheses.retain(|hypothesis| hypothesis.distance < FARTHEST);
         let of_lobes = |hypothesis: &Hypothesis| {
             let layout = [hypothesis.layout];
@@ -111,10 +111,10 @@ fn by_number(
         let mut lobes: Vec<Hypothesis> =
             hypotheses.iter().take(WITH_LOBES).flat_map(of_lobes).collect();
         count(lobes.len());
-        sort(&mut lobes);
+        sort_once(&mut lobes);
         lobes.truncate(WITH_LOBES);
         hypotheses.extend(lobes.into_iter().map(&suited));
-        sort(&mut hypotheses);
+        sort_once(&mut hypotheses);
         if nearest(&hypotheses).map(|hypothesis| hypothesis.distance) >= before {
             break;
         }
@@ -123,8 +123,8 @@ fn by_number(
 }
 
 /// The nearest first, each once.
-fn sort(hypotheses: &mut Vec<Hypothesis>) {
-    hypotheses.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+fn sort_once(hypotheses: &mut Vec<Hypothesis>) {
+    sort(hypotheses);
     let mut known: Vec<(Lut, Layout)> = Vec::new();
     hypotheses.retain(|hypothesis| {
         let own = (hypothesis.truth.lut, hypothesis.layout);
