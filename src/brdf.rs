@@ -111,10 +111,21 @@ impl Microfacet {
         self == Microfacet { ndf: Ndf::Charlie, masking: Masking::HeightCorrelated }
     }
 
+    /// Whether the albedo is 0 somewhere: with the implicit term where n·v is, of sheen as it
+    /// becomes smooth.
+    pub fn fades(self) -> bool {
+        self.masking == Masking::Implicit || !self.ndf.definition().becomes_mirror
+    }
+
     /// Whether the albedo can exceed 1, because the masking term is not that of the distribution's
     /// own microsurface.
     pub fn may_exceed_one(self) -> bool {
         !self.ndf.definition().energy_conserving.contains(&self.masking)
+    }
+
+    /// Whether the masking term jumps at its break, where Charlie's only bends.
+    pub fn jumps(self) -> bool {
+        self.ndf == Ndf::BeckmannWalter
     }
 
     /// The n·l at which the masking term is not smooth, if there is one.

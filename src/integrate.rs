@@ -17,7 +17,9 @@ pub mod half_vectors;
 pub mod hammersley;
 pub mod interpolant;
 pub mod light_directions;
+pub mod light_planes;
 pub mod pick;
+pub mod rings;
 pub mod rule;
 pub mod rules;
 pub mod view_polar;
@@ -112,6 +114,18 @@ impl Integrand {
             )),
         }
     }
+}
+
+/// The nodes of a rule for specular lobes, ready to use on any point.
+pub trait Kernel: Send + Sync + 'static {
+    /// The integrals at n·v = `mu` in [0, 1] and `alpha` above 0.
+    fn integrate<const N: usize, B: Basis<N>, R: Real>(
+        &self,
+        lobe: Microfacet,
+        basis: B,
+        mu: R,
+        alpha: R,
+    ) -> Integrals<N, R>;
 }
 
 /// The integrals in the limit α → 0 at fixed n·v: those of a perfect mirror, times the limit of the

@@ -16,8 +16,10 @@ use splitsum::error::ExitCode;
 use splitsum::integrate::double_exponential::DoubleExponentialRule;
 use splitsum::integrate::errors::Errors;
 use splitsum::integrate::rule::{MARGIN, Method, Rule};
-use splitsum::integrate::rules::{CLOSED_FORM, D6144, D10240, H640, L4608, S2304};
-use splitsum::integrate::rules::{REFERENCE, RULES};
+use splitsum::integrate::rules::{
+    CLOSED_FORM, D6144, D10240, H640, L4608, P480, R456, REFERENCE, RULES, S1440, S2080, S2304,
+    S2432, S2560,
+};
 use splitsum::integrate::{Integrand, ScaleBias};
 use splitsum::units::{SMALLEST_ALPHA, SMALLEST_COSINE};
 
@@ -175,7 +177,7 @@ fn rules_serve_for_the_lobes_that_are_named_and_for_no_other() {
         (HeightCorrelated, true, true),
         (Separable, true, true),
         (SchlickSmith, true, true),
-        (HeightCorrelatedApprox, false, false),
+        (HeightCorrelatedApprox, true, true),
         (Implicit, true, false),
     ] {
         assert_eq!(
@@ -184,11 +186,15 @@ fn rules_serve_for_the_lobes_that_are_named_and_for_no_other() {
             "{masking:?}"
         );
     }
-    assert_eq!((served(&L4608), served(&S2304), served(&CLOSED_FORM)), (4, 3, 0));
-    for rule in RULES
-        .iter()
-        .filter(|rule| !["closed-form", "l", "s"].iter().any(|kind| rule.name.starts_with(kind)))
-    {
+    assert_eq!((served(&L4608), served(&S2304), served(&CLOSED_FORM)), (5, 4, 0));
+    // GGX's five, Beckmann's four and Walter's two, Blinn-Phong's three, two of Charlie's.
+    let interpolants = [S1440, S2080, S2560, S2432].map(|rule| served(&rule));
+    assert_eq!((interpolants, served(&P480), served(&R456)), ([5, 6, 3, 2], 9, 2));
+    for rule in RULES.iter().filter(|rule| {
+        !["closed-form", "l", "s", "p", "r4", "r1", "r2"]
+            .iter()
+            .any(|kind| rule.name.starts_with(kind))
+    }) {
         let glass = matches!(rule.method, Method::Glass(_));
         let count = if glass { 0 } else { Microfacet::all().count() };
         assert_eq!(served(rule), count, "{}", rule.name);
@@ -206,11 +212,10 @@ fn charlie_has_its_own_bounds() {
     let lobe = |masking| Microfacet { ndf: Ndf::Charlie, masking };
     let value = ScaleBias { a: 0.5, b: 0.1 };
     let at = |rule: Rule, masking, alpha| errors_at(&rule, lobe(masking), alpha, value).a;
-    // As sharp as any lobe's from roughness 0.07 up, less so below, and nothing of the coarser
-    // rules there.
+    // As sharp as any lobe's from roughness 1e-5 up, the coarser rules from 0.07 up.
     assert_eq!(
-        (at(REFERENCE, Masking::Neubelt, 0.005), at(REFERENCE, Masking::Neubelt, 0.0048)),
-        (1e-13, 2e-6)
+        [1.0, 1e-10, 0.9e-10].map(|alpha| at(REFERENCE, Masking::Neubelt, alpha)),
+        [1e-13, 1e-13, 2e-6]
     );
     assert_eq!(
         (at(D10240, Masking::Neubelt, 0.005), at(D10240, Masking::Neubelt, 0.0048)),

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
 mod counted;
+mod lobes;
 
 use counted::{Counted, operations};
 use splitsum::backend::device::GpuOptions;
@@ -36,6 +37,7 @@ fn main() {
     let (threads, version) = (rayon::current_num_threads(), env!("CARGO_PKG_VERSION"));
     println!("CPU: {name}, {threads} threads; splitsum {version}\n");
     methods();
+    lobes::lobes();
     processes();
     glass();
     devices();

@@ -8,13 +8,11 @@ use super::Progress;
 use crate::brdf::fresnel::{Basis, with_basis};
 use crate::brdf::{Diffuse, Microfacet};
 use crate::integrate::average::{add_average, average_nodes_at};
-use crate::integrate::double_exponential::{DoubleExponentialNodes, double_exponential};
-use crate::integrate::half_vectors::{HalfVectorNodes, half_vectors};
-use crate::integrate::interpolant::{Interpolant, InterpolantRule};
-use crate::integrate::light_directions::{LightDirectionNodes, light_directions};
+use crate::integrate::interpolant::{Interpolant, InterpolantRule, Source};
 use crate::integrate::rule::{Method, Rule};
-use crate::integrate::{Field, Integrals, Integrand, mirror};
-use crate::numeric::lanes::{self, F64x8, Real, Vector, vectorised};
+use crate::integrate::rules::REFERENCE_NODES;
+use crate::integrate::{Field, Integrals, Integrand, Kernel, mirror};
+use crate::numeric::lanes::{self, F64x8, Vector, vectorised};
 use crate::table::grid::Grid;
 use crate::units::{LARGEST_ALPHA, roughness_of};
 use rayon::prelude::*;
@@ -211,45 +209,66 @@ impl Work for ClosedForm {
     }
 }
 
-/// The nodes of a rule.
-enum Nodes {
-    HalfVectors(HalfVectorNodes),
-    LightDirections(LightDirectionNodes),
-    DoubleExponential(DoubleExponentialNodes),
-}
-
 /// A specular lobe by quadrature.
-struct Quadrature<const N: usize, B> {
+struct Quadrature<const N: usize, B, K> {
     lobe: Microfacet,
     basis: B,
-    nodes: Nodes,
+    nodes: K,
 }
 
 /// A specular lobe by interpolation; where the interpolant does not reach, its source integrates.
 struct Interpolated<const N: usize, B> {
+    basis: B,
     rule: InterpolantRule,
     interpolant: Interpolant<N>,
-    source: Quadrature<N, B>,
+    source: Arc<dyn Work>,
 }
 
-/// A specular lobe by a rule.
+/// A specular lobe by a rule; by the reference where the rule does not serve for it.
 fn specular<const N: usize, B: Basis<N>>(lobe: Microfacet, basis: B, rule: &Rule) -> Arc<dyn Work> {
-    let by = |nodes| Quadrature::<N, B> { lobe, basis, nodes };
     match rule.method {
-        Method::HalfVectors(rule) => Arc::new(by(Nodes::HalfVectors(rule.nodes()))),
-        Method::LightDirections(rule) => Arc::new(by(Nodes::LightDirections(rule.nodes()))),
-        Method::DoubleExponential(rule) => Arc::new(by(Nodes::DoubleExponential(rule.nodes()))),
-        // A closed form serves for no specular lobe: whoever asks for it all the same gets the
-        // source of truth.
-        Method::ClosedForm | Method::Glass(_) => {
-            specular(lobe, basis, &crate::integrate::rules::REFERENCE)
-        }
-        Method::Interpolant(rule) => {
-            let source = by(Nodes::LightDirections(rule.source.nodes()));
-            let integrals = in_chunks(&source, N, &rule.points());
-            Arc::new(Interpolated { rule, interpolant: rule.fit(basis, &integrals), source })
-        }
+        Method::HalfVectors(rule) => quadrature(lobe, basis, rule.nodes()),
+        Method::DoubleExponential(rule) => quadrature(lobe, basis, rule.nodes()),
+        // Not compiled for the models that these do not serve for.
+        _ if B::DEFINITION.smooth_complement => smooth(lobe, basis, rule),
+        _ => quadrature(lobe, basis, REFERENCE_NODES.nodes()),
     }
+}
+
+/// The same for the models of which these rules take the complement.
+fn smooth<const N: usize, B: Basis<N>>(lobe: Microfacet, basis: B, rule: &Rule) -> Arc<dyn Work> {
+    match rule.method {
+        Method::LightDirections(rule) => quadrature(lobe, basis, rule.nodes()),
+        Method::LightPlanes(rule) => quadrature(lobe, basis, rule.nodes()),
+        Method::Rings(rule) => quadrature(lobe, basis, rule.nodes()),
+        Method::Interpolant(rule) => {
+            let source = |source: Source| match source {
+                Source::HalfVectors(rule) => quadrature(lobe, basis, rule.nodes()),
+                Source::LightDirections(rule) => quadrature(lobe, basis, rule.nodes()),
+                Source::LightPlanes(rule) => quadrature(lobe, basis, rule.nodes()),
+                Source::Rings(rule) => quadrature(lobe, basis, rule.nodes()),
+            };
+            let points = rule.points(lobe);
+            let pieces = points.iter().zip(rule.pieces);
+            let integrals: Vec<Field> = pieces
+                .map(|(points, piece)| in_chunks(&*source(piece.source), N, points))
+                .collect();
+            let interpolant = rule.fit(lobe, basis, &integrals);
+            Arc::new(Interpolated { basis, rule, interpolant, source: source(rule.below) })
+        }
+        Method::HalfVectors(_)
+        | Method::DoubleExponential(_)
+        | Method::Glass(_)
+        | Method::ClosedForm => quadrature(lobe, basis, REFERENCE_NODES.nodes()),
+    }
+}
+
+fn quadrature<const N: usize, B: Basis<N>, K: Kernel>(
+    lobe: Microfacet,
+    basis: B,
+    nodes: K,
+) -> Arc<dyn Work> {
+    Arc::new(Quadrature::<N, B, K> { lobe, basis, nodes })
 }
 
 /// Integrates at as many points at a time as there are lanes; a group that is not full repeats its
@@ -273,7 +292,7 @@ fn in_groups<const N: usize>(
     }
 }
 
-impl<const N: usize, B: Basis<N>> Work for Quadrature<N, B> {
+impl<const N: usize, B: Basis<N>, K: Kernel> Work for Quadrature<N, B, K> {
     fn integrate(&self, points: Points, integrals: &mut [f64]) {
         let lanes = |mu, alpha| vectorised(Group { work: self, mu, alpha });
         in_groups(points, integrals, lanes, |(mu, alpha), integrals| {
@@ -321,31 +340,20 @@ fn scatter<const N: usize>(lanes: &Integrals<N, F64x8>, integrals: &mut [f64]) {
     }
 }
 
-impl<const N: usize, B: Basis<N>> Quadrature<N, B> {
-    #[inline(always)]
-    fn lanes<R: Real>(&self, mu: R, alpha: R) -> Integrals<N, R> {
-        let Quadrature { lobe, basis, nodes } = self;
-        match nodes {
-            Nodes::HalfVectors(nodes) => half_vectors(*lobe, *basis, mu, alpha, nodes),
-            Nodes::LightDirections(nodes) => light_directions(*lobe, *basis, mu, alpha, nodes),
-            Nodes::DoubleExponential(nodes) => double_exponential(*lobe, *basis, mu, alpha, nodes),
-        }
-    }
-}
-
 /// A group of as many points as there are lanes.
-struct Group<'a, const N: usize, B> {
-    work: &'a Quadrature<N, B>,
+struct Group<'a, const N: usize, B, K> {
+    work: &'a Quadrature<N, B, K>,
     mu: F64x8,
     alpha: F64x8,
 }
 
-impl<const N: usize, B: Basis<N>> lanes::Work for Group<'_, N, B> {
+impl<const N: usize, B: Basis<N>, K: Kernel> lanes::Work for Group<'_, N, B, K> {
     type Output = Integrals<N, F64x8>;
 
     #[inline(always)]
     fn call(self) -> Self::Output {
-        self.work.lanes(self.mu, self.alpha)
+        let Quadrature { lobe, basis, nodes } = self.work;
+        nodes.integrate(*lobe, *basis, self.mu, self.alpha)
     }
 }
 
@@ -366,7 +374,7 @@ impl<const N: usize, B: Basis<N>> lanes::Work for Row<'_, N, B> {
         let row = work.interpolant.row(alpha);
         for (mus, integrals) in mus.chunks(2 * LANES).zip(integrals.chunks_mut(2 * LANES * N)) {
             let lanes = |first: usize| F64x8(from_fn(|i| mus[(first + i).min(mus.len() - 1)]));
-            let pair = row.at(work.source.basis, [lanes(0), lanes(LANES)]);
+            let pair = row.at(work.basis, [lanes(0), lanes(LANES)]);
             for (integrals, lanes) in integrals.chunks_mut(LANES * N).zip(&pair) {
                 scatter(lanes, integrals);
             }

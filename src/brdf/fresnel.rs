@@ -95,6 +95,10 @@ pub struct Definition {
     pub albedo: &'static str,
     /// The word of a table's channels that are all integrals: their letters.
     pub channels: &'static str,
+    /// Whether the first weight is 1 less the second, and that a low power of 1 - v·h: the rules
+    /// over directions of light take A from E and B, and their nodes for the azimuth are those that
+    /// (1 - v·h)⁵ needs.
+    pub smooth_complement: bool,
     /// The integrals of the weights, in order.
     pub integrals: &'static [Integral],
     /// A module that defines `weights`, and that function's name.

@@ -133,9 +133,9 @@ impl Ndf {
     pub fn projected_area<R: Real>(self, c: R, alpha: R) -> R {
         match self {
             Ndf::Ggx => ggx::ggx_projected_area(c, alpha),
-            Ndf::Beckmann | Ndf::BlinnPhong => c.zip(alpha, beckmann::beckmann_projected_area),
-            Ndf::BeckmannWalter => c.zip(alpha, beckmann::walter_projected_area),
-            Ndf::Charlie => c.zip(alpha, charlie::charlie_projected_area),
+            Ndf::Beckmann | Ndf::BlinnPhong => c.call::<beckmann::ProjectedArea>(alpha),
+            Ndf::BeckmannWalter => beckmann::walter_projected_area(c, alpha),
+            Ndf::Charlie => c.call::<charlie::ProjectedArea>(alpha),
         }
     }
 

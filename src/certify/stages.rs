@@ -5,7 +5,7 @@ use crate::backend::cpu::Baker;
 use crate::integrate::Integrand;
 use crate::integrate::errors::Errors;
 use crate::integrate::rule::{Method, Rule};
-use crate::integrate::rules::{CLOSED_FORM, D10240, G904, G4536, REFERENCE};
+use crate::integrate::rules::{CLOSED_FORM, D10240, G904, G4536, L4608, P1024, R2552, REFERENCE};
 use crate::table::claim::{Stage, StageError};
 use crate::table::grid::Grid;
 use crate::table::precision::Precision;
@@ -37,7 +37,7 @@ pub fn rules(task: &Task) -> Vec<Rule> {
     // At a roughness where Charlie's rules are as sharp as any lobe's.
     let error = |rule: &Rule| rule.bound_at(integrand, 1.0);
     let mut rules: Vec<Rule> = first.into_iter().collect();
-    let finer = [G904, G4536, D10240, REFERENCE, CLOSED_FORM];
+    let finer = [G904, G4536, L4608, P1024, R2552, D10240, REFERENCE, CLOSED_FORM];
     for rule in finer.into_iter().filter(|rule| rule.applies_to(integrand)) {
         if rules.last().is_none_or(|last| error(&rule) < error(last)) {
             rules.push(rule);

@@ -8,9 +8,17 @@
 use crate::brdf::interface::{Interface, Side, TransmissionMasking};
 use crate::brdf::{Masking, Microfacet, Ndf};
 
-/// Below this α (roughness 0.07) Charlie's ring lies so near the horizon that the reference keeps
-/// 2e-6 only, and the other double exponential rules nothing.
+/// Below this α (roughness 0.07) Charlie's ring lies so near the horizon that the double
+/// exponential rules but for the reference keep nothing.
 pub const CHARLIE_LIMIT: f64 = 0.0049;
+
+/// Above this α (roughness 0.7) Blinn-Phong falls like a low power of the slope, and the rules over
+/// planes of light directions do not serve.
+pub const BLINN_PHONG_LIMIT: f64 = 0.49;
+
+/// Below this α (roughness 1e-5) the reference keeps 2e-6 of Charlie only, and nothing is known
+/// better.
+pub const CHARLIE_UNKNOWN: f64 = 1e-10;
 
 /// A bound is at least this many times the largest error that a long search finds.
 pub const MARGIN: f64 = 1.5;
@@ -85,10 +93,28 @@ pub struct Columns {
     pub l512: Bound,
     /// Over directions of light.
     pub l4608: Bound,
+    /// Over planes of light directions.
+    pub p480: Bound,
+    /// Over planes of light directions.
+    pub p1024: Bound,
+    /// About a ring.
+    pub r456: Bound,
+    /// About a ring.
+    pub r1344: Bound,
+    /// About a ring.
+    pub r2552: Bound,
     /// Interpolated.
     pub s640: Bound,
     /// Interpolated.
+    pub s1440: Bound,
+    /// Interpolated.
     pub s2304: Bound,
+    /// Interpolated.
+    pub s2080: Bound,
+    /// Interpolated.
+    pub s2560: Bound,
+    /// Interpolated.
+    pub s2432: Bound,
     /// Glass.
     pub g112: Bound,
     /// Glass.
@@ -107,11 +133,13 @@ pub const fn columns(lobe: Microfacet, alpha: f64) -> &'static Columns {
         Ndf::Ggx => &GGX,
         Ndf::Beckmann => &BECKMANN,
         Ndf::BeckmannWalter => &BECKMANN_WALTER,
+        Ndf::BlinnPhong if alpha > BLINN_PHONG_LIMIT => &BLINN_PHONG_BEYOND_LIMIT,
         Ndf::BlinnPhong => &BLINN_PHONG,
         Ndf::Charlie => match lobe.masking {
             _ if alpha >= CHARLIE_LIMIT => &CHARLIE,
             Masking::HeightCorrelated => &CHARLIE_FITTED_BELOW_LIMIT,
-            _ => &CHARLIE_BELOW_LIMIT,
+            _ if alpha >= CHARLIE_UNKNOWN => &CHARLIE_BELOW_LIMIT,
+            _ => &CHARLIE_UNKNOWN_BELOW,
         },
     }
 }
@@ -127,6 +155,7 @@ const GGX: Columns = Columns {
     l512: all(1e-5),
     l4608: sharp(5e-9, 8e-8, 1e-12),
     s640: all(1e-5),
+    s1440: sharp(1.2e-7, 2e-6, 4e-9),
     s2304: sharp(3e-8, 8e-8, 3e-11),
     ..SMOOTH
 };
@@ -138,6 +167,9 @@ const BECKMANN: Columns = Columns {
     h640: all(1e-6),
     h1536: all(1e-7),
     h6144: all(5e-10),
+    p480: sharp(5e-9, 1e-7, 1e-12),
+    p1024: sharp(2.5e-11, 1e-9, 1e-15),
+    s2080: sharp(8e-8, 3e-7, 3e-10),
     ..SMOOTH
 };
 
@@ -149,6 +181,9 @@ const BECKMANN_WALTER: Columns = Columns {
     h640: all(6e-5),
     h1536: all(1.2e-5),
     h6144: all(2e-6),
+    p480: sharp(5e-9, 1e-7, 1e-12),
+    p1024: sharp(2.5e-11, 1e-9, 1e-15),
+    s2080: sharp(8e-8, 3e-7, 3e-10),
     ..SMOOTH
 };
 
@@ -159,13 +194,18 @@ const BLINN_PHONG: Columns = Columns {
     h640: all(3e-6),
     h1536: all(1.5e-7),
     h6144: all(1e-9),
+    p480: sharp(7e-9, 1e-7, 1e-12),
+    p1024: sharp(2.5e-11, 1e-9, 1e-15),
+    s2560: sharp(1.6e-7, 1e-6, 3e-10),
     ..SMOOTH
 };
+
+/// Where the lobe is so wide that it does not end.
+const BLINN_PHONG_BEYOND_LIMIT: Columns = Columns { p480: NONE, p1024: NONE, ..BLINN_PHONG };
 
 const CHARLIE: Columns = Columns {
     d6144: sharp(5e-7, 1.5e-6, 1e-12),
     d10240: sharp(6e-9, 7e-8, 1e-12),
-    reference: SMOOTH.reference,
     ..CHARLIE_BELOW_LIMIT
 };
 
@@ -178,14 +218,26 @@ const CHARLIE_BELOW_LIMIT: Columns = Columns {
     h6144: all(3e-6),
     d6144: NONE,
     d10240: NONE,
-    reference: all(2e-6),
+    r456: sharp(5e-7, 4e-6, 4e-9),
+    r1344: sharp(8e-9, 2e-6, 1e-12),
+    r2552: sharp(1e-9, 3e-7, 1e-12),
+    s2432: sharp(8e-9, 1e-6, 1e-9),
     ..SMOOTH
+};
+
+const CHARLIE_UNKNOWN_BELOW: Columns = Columns {
+    r456: NONE,
+    r1344: NONE,
+    r2552: NONE,
+    s2432: NONE,
+    reference: all(2e-6),
+    ..CHARLIE_BELOW_LIMIT
 };
 
 /// The fitted Λ is so large at small α that only the far tail of the ring is seen, which falls
 /// faster than the rules over half vectors follow (below roughness 1e-6).
 const CHARLIE_FITTED_BELOW_LIMIT: Columns =
-    Columns { h640: all(6e-4), h1536: all(2e-4), h6144: all(3e-5), ..CHARLIE_BELOW_LIMIT };
+    Columns { h640: all(6e-4), h1536: all(2e-4), h6144: all(3e-5), ..CHARLIE_UNKNOWN_BELOW };
 
 /// What the layer of an index of refraction near 1 adds, where reflectance falls from 1 within
 /// √(n² - 1) of grazing incidence.
@@ -217,8 +269,17 @@ const SMOOTH: Columns = Columns {
     l288: NONE,
     l512: NONE,
     l4608: NONE,
+    p480: NONE,
+    p1024: NONE,
+    r456: NONE,
+    r1344: NONE,
+    r2552: NONE,
     s640: NONE,
+    s1440: NONE,
     s2304: NONE,
+    s2080: NONE,
+    s2560: NONE,
+    s2432: NONE,
     g112: NONE,
     g560: NONE,
     g904: NONE,

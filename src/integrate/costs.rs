@@ -13,21 +13,22 @@ struct Costs {
     half_vectors_without_smith: f64,
     /// Double exponential.
     double_exponential: f64,
+    /// By the distribution's own method: over directions of light, over planes of them, about a
+    /// ring.
+    own: f64,
 }
 
 const fn costs(ndf: Ndf) -> Costs {
-    let [half_vectors, half_vectors_without_smith, double_exponential] = match ndf {
-        Ndf::Ggx => [2.0, 2.0, 2.0],
-        Ndf::Beckmann => [30.0, 2.0, 6.0],
-        Ndf::BeckmannWalter => [9.0, 9.0, 8.0],
-        Ndf::BlinnPhong => [30.0, 2.0, 8.0],
-        Ndf::Charlie => [90.0, 2.0, 20.0],
+    let [half_vectors, half_vectors_without_smith, double_exponential, own] = match ndf {
+        Ndf::Ggx => [3.4, 3.4, 2.8, 1.1],
+        Ndf::Beckmann => [12.0, 3.7, 4.2, 4.3],
+        // As many nodes again on the other side of the jump.
+        Ndf::BeckmannWalter => [7.0, 7.0, 6.2, 8.0],
+        Ndf::BlinnPhong => [12.0, 3.7, 7.0, 7.0],
+        Ndf::Charlie => [19.0, 4.0, 15.0, 3.7],
     };
-    Costs { half_vectors, half_vectors_without_smith, double_exponential }
+    Costs { half_vectors, half_vectors_without_smith, double_exponential, own }
 }
-
-/// Nanoseconds for an evaluation over directions of light.
-const LIGHT_DIRECTIONS: f64 = 2.0;
 
 /// Nanoseconds for a term of a polynomial in n·v.
 const POLYNOMIAL_TERM: f64 = 0.5;
@@ -45,8 +46,10 @@ impl Rule {
         match self.method {
             Method::HalfVectors(rule) => texels * rule.evaluations(),
             Method::LightDirections(rule) => texels * rule.evaluations(),
+            Method::LightPlanes(rule) => texels * rule.evaluations(),
+            Method::Rings(rule) => texels * rule.evaluations(),
             Method::DoubleExponential(rule) => texels * rule.evaluations(),
-            Method::Interpolant(rule) => rule.len() * rule.source.evaluations(),
+            Method::Interpolant(rule) => rule.evaluations(),
             Method::Glass(rule) => texels * rule.evaluations(),
             Method::ClosedForm => texels,
         }
@@ -65,14 +68,18 @@ impl Rule {
             Method::HalfVectors(_) => costs.half_vectors_without_smith,
             Method::DoubleExponential(_) => costs.double_exponential,
             Method::LightDirections(_)
+            | Method::LightPlanes(_)
+            | Method::Rings(_)
             | Method::Interpolant(_)
             | Method::Glass(_)
-            | Method::ClosedForm => LIGHT_DIRECTIONS,
+            | Method::ClosedForm => costs.own,
         };
         let polynomials = match self.method {
-            Method::Interpolant(rule) => POLYNOMIAL_TERM * (rule.directions * texels) as f64,
+            Method::Interpolant(rule) => POLYNOMIAL_TERM * (rule.directions() * texels) as f64,
             Method::HalfVectors(_)
             | Method::LightDirections(_)
+            | Method::LightPlanes(_)
+            | Method::Rings(_)
             | Method::DoubleExponential(_)
             | Method::Glass(_)
             | Method::ClosedForm => 0.0,

@@ -12,8 +12,8 @@
 //! direction, or for sheen, whose half vectors lie near the horizon, by T = -t1 + √α sinh r; the
 //! inner variable is z = k z', k being the scale of D's peak.
 
-use super::Integrals;
 use super::half_vectors::TAIL_DEPTH;
+use super::{Integrals, Kernel};
 use crate::brdf::fresnel::Basis;
 use crate::brdf::{Microfacet, Ndf};
 use crate::numeric::lanes::Real;
@@ -51,6 +51,19 @@ impl DoubleExponentialRule {
             inner: half_line(self.inner, limit),
             inner_with_cusp: half_line_with_cusp(2 * self.inner, limit),
         }
+    }
+}
+
+impl Kernel for DoubleExponentialNodes {
+    #[inline(always)]
+    fn integrate<const N: usize, B: Basis<N>, R: Real>(
+        &self,
+        lobe: Microfacet,
+        basis: B,
+        mu: R,
+        alpha: R,
+    ) -> Integrals<N, R> {
+        double_exponential(lobe, basis, mu, alpha, self)
     }
 }
 

@@ -11,7 +11,7 @@
 //! x > 0 on the full circle up to τ = t1 = μ/(1+sin θ_v), on |φ| < φ_m with cos φ_m = -m/s up to τ
 //! = 1/t1, and nowhere beyond. Each piece is smooth, so a Gauss rule converges on each.
 
-use super::Integrals;
+use super::{Integrals, Kernel};
 use crate::brdf::Microfacet;
 use crate::brdf::fresnel::Basis;
 use crate::numeric::lanes::Real;
@@ -76,6 +76,19 @@ impl HalfVectorRule {
             azimuth_horizon: half_gauss(self.azimuth_horizon),
             power: self.power,
         }
+    }
+}
+
+impl Kernel for HalfVectorNodes {
+    #[inline(always)]
+    fn integrate<const N: usize, B: Basis<N>, R: Real>(
+        &self,
+        lobe: Microfacet,
+        basis: B,
+        mu: R,
+        alpha: R,
+    ) -> Integrals<N, R> {
+        half_vectors(lobe, basis, mu, alpha, self)
     }
 }
 

@@ -2,137 +2,275 @@
 //! points. A table of any size costs no more integrals than that, and a texel a few short
 //! polynomials.
 //!
-//! With y = μ/α the first variable is s ∝ tanh(asinh(y)/c)^(1/q), 1 at μ = 1: it spreads the layer
-//! μ ~ α over many nodes, and its power q, about μ near 0, turns the term μ ln μ of Smith masking
-//! into s^q ln s, which a polynomial follows. The second is √r = α^¼.
+//! With y = μ/layer, the layer being a multiple of α, or of √α for Charlie, the first variable is
+//! s ∝ tanh(asinh(y)/c)^(1/q), 1 at μ = 1: it spreads the layer over many nodes, and its power q,
+//! about μ near 0, turns the term μ ln μ of Smith masking into s^q ln s, which a polynomial
+//! follows. The second is √r = α^¼, in pieces where one polynomial would be slow: a Gaussian grows
+//! where the argument of α exceeds 45 degrees, which bounds how fast it converges by the ratio of
+//! a piece's ends.
 //!
-//! The polynomials follow E, the sum of the first two integrals, and of every integral but the
-//! first the rest beyond a mirror's: B - (1-μ)⁵ E for Schlick's. The rests vanish as α → 0; the
-//! integrals themselves change over μ ~ 1, which s does not resolve at small α.
+//! The polynomials follow E, the sum of the first two integrals, or E - E(α → 0), and of every
+//! integral but the first the rest beyond a mirror's: B - (1-μ)⁵ E for Schlick's. The rests vanish
+//! as α → 0; the integrals themselves change over μ ~ 1, which s does not resolve at small α.
 
+mod chebyshev;
+pub mod map;
+pub mod nodes;
 pub mod norms;
 
+pub use map::{Layer, Map};
+
+use self::chebyshev::{chebyshev_node, clenshaw, transform, transposed};
+use self::map::Placement;
+use super::half_vectors::HalfVectorRule;
 use super::light_directions::LightDirectionRule;
+use super::light_planes::LightPlaneRule;
+use super::rings::RingRule;
 use super::{Field, Integrals};
 use crate::brdf::fresnel::Basis;
+use crate::brdf::{Microfacet, Ndf};
 use crate::numeric::lanes::{F64x8, Real, Vector};
-use crate::numeric::quadrature::slope_map::Power;
 use std::array::from_fn;
-use std::f64::consts::PI;
 
 /// The smallest perceptual roughness of an interpolant: half a texel of a table of 512 rows.
 pub const SMOOTHEST: f64 = 1.0 / 1024.0;
 
 const LANES: usize = F64x8::LANES;
 
-/// Numbers of nodes along s and along √r, and the rule that integrates there.
+/// An interpolant's pieces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InterpolantRule {
-    /// Along s; a multiple of twice the lanes of [`F64x8`].
+    /// The perceptual roughness at which the first begins.
+    pub start: f64,
+    /// The rule that integrates below.
+    pub below: Source,
+    /// By ascending roughness, the last one up to 1.
+    pub pieces: &'static [Piece],
+    /// The distributions that it was made for.
+    pub distributions: &'static [Ndf],
+    /// Of E what it is beyond.
+    pub beyond: Beyond,
+}
+
+/// What the first polynomial is beyond.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beyond {
+    /// Nothing: it is E, even over a jump.
+    Nothing,
+    /// E(α → 0), and where the masking term jumps one polynomial on either side.
+    Limit,
+}
+
+/// A piece: its nodes, and the rule that integrates there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// The perceptual roughness at which it ends, where the next begins.
+    pub end: f64,
+    /// Nodes along s; a multiple of twice the lanes of [`F64x8`]. As many on either side of a jump.
     pub directions: usize,
-    /// Along √r; even.
+    /// Nodes along √r; even.
     pub roughnesses: usize,
-    /// c and q of s: [`Power::Two`] is 8 and 2, for few nodes, [`Power::Four`] 16 and 4.
-    pub power: Power,
+    /// s
+    pub map: Map,
     /// The rule that integrates at the nodes.
-    pub source: LightDirectionRule,
+    pub source: Source,
+}
+
+/// The rule of a piece's nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Source {
+    /// Over half vectors.
+    HalfVectors(HalfVectorRule),
+    /// Over directions of light.
+    LightDirections(LightDirectionRule),
+    /// Over planes of light directions.
+    LightPlanes(LightPlaneRule),
+    /// About a ring.
+    Rings(RingRule),
 }
 
 /// Polynomials in s and √r, as Chebyshev coefficients: of E, then of the rests of the other
 /// integrals.
 #[derive(Clone, Debug)]
 pub struct Interpolant<const N: usize> {
-    /// For each power of √r the coefficients in s, eight powers of s to a group.
-    coefficients: Vec<Vec<[F64x8; N]>>,
-    power: Power,
+    follows: Follows,
+    pieces: Vec<Fit<N>>,
+}
+
+/// The polynomials of a piece.
+#[derive(Clone, Debug)]
+struct Fit<const N: usize> {
+    piece: Piece,
+    /// √r at its ends.
+    roots: [f64; 2],
+    /// On either side of the jump if there is one: for each power of √r the coefficients in s,
+    /// eight powers of s to a group.
+    sides: Vec<Vec<Vec<[F64x8; N]>>>,
 }
 
 /// The polynomials in s at one α.
 #[derive(Clone, Debug)]
 pub struct InterpolantRow<const N: usize> {
-    power: Power,
-    /// 1/α
-    steepness: f64,
-    /// The factor that scales s to 1 at μ = 1, before the root is taken.
-    scale: f64,
-    coefficients: Vec<[f64; N]>,
+    follows: Follows,
+    place: Placement,
+    /// n·v of the jump; 0 where there is none.
+    jump: f64,
+    /// Where each of the polynomials begins in s, and the inverse of its length; its coefficients.
+    sides: Vec<(f64, f64, Vec<[f64; N]>)>,
 }
 
-/// tanh(asinh(y)/c) for y ≥ 0.
-#[inline(always)]
-fn compressed<R: Real>(y: R, power: Power) -> R {
-    let e = (y + (y * y + 1.0).sqrt()).sqrt().sqrt();
-    let e = if power == Power::Four { e.sqrt() } else { e };
-    (e - 1.0) / (e + 1.0)
+/// What the polynomials follow.
+#[derive(Clone, Copy, Debug)]
+struct Follows {
+    lobe: Microfacet,
+    beyond: Beyond,
 }
 
-/// The n-th of the zeros of the Chebyshev polynomial of degree `count`, on [0, 1].
-fn chebyshev_node(n: usize, count: usize) -> f64 {
-    0.5 + 0.5 * libm::cos(PI * (n as f64 + 0.5) / count as f64)
-}
+impl Follows {
+    /// n·v of the jump at an α, if the polynomials are apart there.
+    fn jump(self, alpha: f64) -> Option<f64> {
+        self.lobe.break_at(alpha).filter(|_| self.sides() == 2)
+    }
 
-/// √r on [0, 1].
-fn roughness_variable(alpha: f64) -> f64 {
-    let start = SMOOTHEST.sqrt();
-    (alpha.sqrt().sqrt() - start) / (1.0 - start)
+    /// The number of polynomials over n·v.
+    fn sides(self) -> usize {
+        1 + usize::from(self.beyond == Beyond::Limit && self.lobe.jumps())
+    }
+
+    /// The ends in s of each of them at an α.
+    fn intervals(self, place: &Placement, alpha: f64) -> Vec<[f64; 2]> {
+        match self.jump(alpha) {
+            None => vec![[0.0, 1.0]],
+            Some(mu) => {
+                let at = place.of(mu);
+                vec![[0.0, at], [at, 1.0]]
+            }
+        }
+    }
+
+    /// What E is followed beyond.
+    #[inline(always)]
+    fn limit<R: Real>(self, mu: R) -> R {
+        match self.beyond {
+            Beyond::Nothing => R::from(0.0),
+            Beyond::Limit => self.lobe.smooth_limit(mu),
+        }
+    }
 }
 
 impl InterpolantRule {
-    /// The number of integrals that it takes.
+    /// The number of integrals that it takes, of a lobe without a jump.
     #[allow(clippy::len_without_is_empty, reason = "a rule always has nodes")]
     pub fn len(&self) -> usize {
-        self.directions * self.roughnesses
+        self.pieces.iter().map(|piece| piece.directions * piece.roughnesses).sum()
+    }
+
+    /// Evaluations of the integrand, of a lobe without a jump.
+    pub fn evaluations(&self) -> usize {
+        let of = |piece: &Piece| piece.directions * piece.roughnesses * piece.source.evaluations();
+        self.pieces.iter().map(of).sum()
+    }
+
+    /// The largest number of nodes along s.
+    pub fn directions(&self) -> usize {
+        self.pieces.iter().map(|piece| piece.directions).max().unwrap_or(0)
     }
 
     /// Whether an α lies in its domain.
     pub fn covers(&self, alpha: f64) -> bool {
-        (SMOOTHEST * SMOOTHEST..=1.0).contains(&alpha)
+        (self.start * self.start..=1.0).contains(&alpha)
     }
 
-    /// The (n·v, α) of its nodes, n·v varying fastest.
-    pub fn points(&self) -> Vec<(f64, f64)> {
-        let start = SMOOTHEST.sqrt();
-        let mut points = Vec::with_capacity(self.len());
-        for j in 0..self.roughnesses {
-            let root = start + (1.0 - start) * chebyshev_node(j, self.roughnesses);
-            let alpha = root * root * root * root;
-            points.extend((0..self.directions).map(|i| (self.direction(i, alpha), alpha)));
+    /// The pieces with the √r at their ends.
+    fn pieces(&self) -> impl Iterator<Item = (Piece, [f64; 2])> {
+        let ends = self.pieces.iter().map(|piece| piece.end.sqrt());
+        let starts = std::iter::once(self.start.sqrt()).chain(ends.clone());
+        self.pieces.iter().copied().zip(starts.zip(ends).map(|(start, end)| [start, end]))
+    }
+
+    /// The (n·v, α) of the nodes of each piece for a lobe, n·v varying fastest, a side of the jump
+    /// after the other.
+    pub fn points(&self, lobe: Microfacet) -> Vec<Vec<(f64, f64)>> {
+        let follows = Follows { lobe, beyond: self.beyond };
+        self.pieces().map(|(piece, roots)| piece.points(follows, roots)).collect()
+    }
+
+    /// The interpolant through these integrals at the rule's points, a field for each piece.
+    pub fn fit<const N: usize, B: Basis<N>>(
+        &self,
+        lobe: Microfacet,
+        basis: B,
+        integrals: &[Field],
+    ) -> Interpolant<N> {
+        let follows = Follows { lobe, beyond: self.beyond };
+        let fits = self.pieces().zip(integrals).map(|((piece, roots), integrals)| Fit {
+            piece,
+            roots,
+            sides: piece.fit(follows, basis, &piece.points(follows, roots), integrals),
+        });
+        Interpolant { follows, pieces: fits.collect() }
+    }
+}
+
+impl Source {
+    /// Evaluations of the integrand for a node.
+    pub fn evaluations(&self) -> usize {
+        match self {
+            Source::HalfVectors(rule) => rule.evaluations(),
+            Source::LightDirections(rule) => rule.evaluations(),
+            Source::LightPlanes(rule) => rule.evaluations(),
+            Source::Rings(rule) => rule.evaluations(),
+        }
+    }
+}
+
+impl Piece {
+    fn points(&self, follows: Follows, [start, end]: [f64; 2]) -> Vec<(f64, f64)> {
+        let alphas = (0..self.roughnesses).map(|j| {
+            let root = start + (end - start) * chebyshev_node(j, self.roughnesses);
+            root * root * root * root
+        });
+        let alphas: Vec<f64> = alphas.collect();
+        let sides = follows.sides();
+        let mut points = Vec::with_capacity(sides * self.directions * self.roughnesses);
+        for side in 0..sides {
+            for &alpha in &alphas {
+                let place = self.map.at(alpha);
+                let [from, to] = follows.intervals(&place, alpha)[side];
+                let node = |i| from + (to - from) * chebyshev_node(i, self.directions);
+                points.extend((0..self.directions).map(|i| (place.inverse(node(i)), alpha)));
+            }
         }
         points
     }
 
-    /// n·v of the i-th node along s.
-    fn direction(&self, i: usize, alpha: f64) -> f64 {
-        let end = compressed(1.0 / alpha, self.power);
-        let s = chebyshev_node(i, self.directions);
-        let s2 = s * s;
-        let (power, c) = match self.power {
-            Power::Two => (s2, 8.0),
-            Power::Four => (s2 * s2, 16.0),
-        };
-        let y = libm::sinh(c * libm::atanh(end * power));
-        (alpha * y).min(1.0)
-    }
-
-    /// The interpolant through these integrals at the rule's points.
-    pub fn fit<const N: usize, B: Basis<N>>(&self, basis: B, integrals: &Field) -> Interpolant<N> {
-        let points = self.points();
+    /// The coefficients on each side.
+    fn fit<const N: usize, B: Basis<N>>(
+        &self,
+        follows: Follows,
+        basis: B,
+        points: &[(f64, f64)],
+        integrals: &Field,
+    ) -> Vec<Vec<Vec<[F64x8; N]>>> {
         debug_assert_eq!((integrals.len(), integrals.count()), (points.len(), N));
         let followed: Vec<[f64; N]> = integrals
             .iter()
-            .zip(&points)
-            .map(|(integrals, &(mu, _))| follow(basis, mu, integrals))
+            .zip(points)
+            .map(|(integrals, &(mu, _))| follow(follows, basis, mu, integrals))
             .collect();
-        let parts: [Vec<f64>; N] =
-            from_fn(|k| self.transform(followed.iter().map(|values| values[k]).collect()));
-        // Of power k of s and power j of √r, the latter varying fastest.
-        let at = |part: &[f64], group: usize, j: usize| {
-            F64x8(from_fn(|lane| part[(group * LANES + lane) * self.roughnesses + j]))
+        let side = |followed: &[[f64; N]]| {
+            let parts: [Vec<f64>; N] =
+                from_fn(|k| self.transform(followed.iter().map(|values| values[k]).collect()));
+            // Of power k of s and power j of √r, the latter varying fastest.
+            let at = |part: &[f64], group: usize, j: usize| {
+                F64x8(from_fn(|lane| part[(group * LANES + lane) * self.roughnesses + j]))
+            };
+            let groups = |j: usize| {
+                (0..self.directions / LANES).map(|g| from_fn(|k| at(&parts[k], g, j))).collect()
+            };
+            (0..self.roughnesses).map(groups).collect()
         };
-        let groups = |j: usize| {
-            (0..self.directions / LANES).map(|g| from_fn(|k| at(&parts[k], g, j))).collect()
-        };
-        Interpolant { coefficients: (0..self.roughnesses).map(groups).collect(), power: self.power }
+        followed.chunks(self.directions * self.roughnesses).map(side).collect()
     }
 
     /// The coefficients in s and √r of values at the points: the transform along √r of the
@@ -143,128 +281,105 @@ impl InterpolantRule {
     }
 }
 
-/// E and the rests of the integrals at n·v = `mu`.
-fn follow<const N: usize, B: Basis<N>>(basis: B, mu: f64, integrals: &[f64]) -> [f64; N] {
+/// E - E(α → 0) and the rests of the integrals at n·v = `mu`.
+fn follow<const N: usize, B: Basis<N>>(
+    follows: Follows,
+    basis: B,
+    mu: f64,
+    integrals: &[f64],
+) -> [f64; N] {
     let e: f64 = integrals.iter().take(2).sum();
     let weights = basis.weights(mu);
-    from_fn(|k| if k == 0 { e } else { integrals[k] - weights[k] * e })
+    from_fn(|k| if k == 0 { e - follows.limit(mu) } else { integrals[k] - weights[k] * e })
 }
 
 /// The inverse of [`follow`].
 #[inline(always)]
 fn unfollow<const N: usize, B: Basis<N>, R: Real>(
+    follows: Follows,
     basis: B,
     mu: R,
     followed: [R; N],
 ) -> Integrals<N, R> {
     let weights = basis.weights(mu);
+    let e = followed[0] + follows.limit(mu);
     let mut integrals = Integrals::zero();
     for k in 1..N {
-        integrals.0[k] = followed[k] + weights[k] * followed[0];
+        integrals.0[k] = followed[k] + weights[k] * e;
     }
-    integrals.0[0] = followed[0] - integrals.0[1];
+    integrals.0[0] = e - integrals.0[1];
     integrals
-}
-
-/// The Chebyshev coefficients of each run of `count` values at the Chebyshev nodes.
-fn transform(values: &[f64], count: usize) -> Vec<f64> {
-    let n = count as f64;
-    let row = |k: usize| -> Vec<f64> {
-        let scale = if k == 0 { 1.0 / n } else { 2.0 / n };
-        // The angle in units of π/(2n), less whole turns, is a whole number and exact.
-        (0..count)
-            .map(|j| scale * libm::cos(PI * (k * (2 * j + 1) % (4 * count)) as f64 / (2.0 * n)))
-            .collect()
-    };
-    let rows: Vec<Vec<f64>> = (0..count).map(row).collect();
-    let dot = |run: &[f64], row: &[f64]| -> f64 {
-        run.iter().zip(row).map(|(value, weight)| value * weight).sum()
-    };
-    values.chunks(count).flat_map(|run| rows.iter().map(move |row| dot(run, row))).collect()
-}
-
-fn transposed(values: &[f64], width: usize) -> Vec<f64> {
-    (0..width).flat_map(|i| values.iter().skip(i).step_by(width).copied()).collect()
-}
-
-/// Clenshaw's summation Σ c_k T_k(x) of N series at two places x, side by side since a step of one
-/// waits for the step before; `of` gives an even number of coefficients. Two steps at a time, so
-/// that the sums need not change places.
-#[inline(always)]
-fn clenshaw<const N: usize, R: Real, C>(
-    coefficients: &[C],
-    x: [R; 2],
-    of: impl Fn(&C) -> [[R; N]; 2],
-) -> [[R; N]; 2] {
-    let last = coefficients.len() - 1;
-    let twice = [x[0] * 2.0, x[1] * 2.0];
-    let (mut now, mut before) = (of(&coefficients[last]), [[R::from(0.0); N]; 2]);
-    for pair in coefficients[1..last].rchunks_exact(2) {
-        let c = of(&pair[1]);
-        for i in 0..2 {
-            for k in 0..N {
-                before[i][k] = twice[i] * now[i][k] + (c[i][k] - before[i][k]);
-            }
-        }
-        let c = of(&pair[0]);
-        for i in 0..2 {
-            for k in 0..N {
-                now[i][k] = twice[i] * before[i][k] + (c[i][k] - now[i][k]);
-            }
-        }
-    }
-    let mut sum = of(&coefficients[0]);
-    for i in 0..2 {
-        for k in 0..N {
-            sum[i][k] = x[i] * now[i][k] + (sum[i][k] - before[i][k]);
-        }
-    }
-    sum
 }
 
 impl<const N: usize> Interpolant<N> {
     /// The polynomials at one `alpha` in the rule's domain.
     #[inline(always)]
     pub fn row(&self, alpha: f64) -> InterpolantRow<N> {
-        debug_assert!((SMOOTHEST * SMOOTHEST..=1.0).contains(&alpha), "{alpha}");
-        let x = F64x8::from(2.0 * roughness_variable(alpha) - 1.0);
-        let groups = self.coefficients[0].len();
-        let mut coefficients = vec![[0.0; N]; groups * LANES];
-        for (pair, coefficients) in coefficients.chunks_exact_mut(2 * LANES).enumerate() {
-            let of = |row: &Vec<[F64x8; N]>| [row[2 * pair], row[2 * pair + 1]];
-            let groups = clenshaw(&self.coefficients, [x; 2], of);
-            for (coefficients, group) in coefficients.chunks_exact_mut(LANES).zip(&groups) {
-                for (i, coefficients) in coefficients.iter_mut().enumerate() {
-                    for k in 0..N {
-                        coefficients[k] = group[k].0[i];
-                    }
+        let root = alpha.sqrt().sqrt();
+        let last = self.pieces.len() - 1;
+        let piece = self.pieces[..last].partition_point(|fit| fit.roots[1] < root);
+        let Fit { piece, roots: [start, end], sides } = &self.pieces[piece];
+        debug_assert!((start - 1e-9..=1.0).contains(&root), "{alpha}");
+        let x = F64x8::from(2.0 * (root - start) / (end - start) - 1.0);
+        let place = piece.map.at(alpha);
+        let intervals = self.follows.intervals(&place, alpha).into_iter().zip(sides);
+        InterpolantRow {
+            follows: self.follows,
+            place,
+            jump: self.follows.jump(alpha).unwrap_or(0.0),
+            sides: intervals
+                .map(|([from, to], side)| (from, 1.0 / (to - from), coefficients_at(side, x)))
+                .collect(),
+        }
+    }
+}
+
+/// The coefficients in s at the place x of √r between its ends -1 and 1.
+#[inline(always)]
+fn coefficients_at<const N: usize>(side: &[Vec<[F64x8; N]>], x: F64x8) -> Vec<[f64; N]> {
+    let groups = side[0].len();
+    let mut coefficients = vec![[0.0; N]; groups * LANES];
+    for (pair, coefficients) in coefficients.chunks_exact_mut(2 * LANES).enumerate() {
+        let of = |row: &Vec<[F64x8; N]>| [row[2 * pair], row[2 * pair + 1]];
+        let groups = clenshaw(side, [x; 2], of);
+        for (coefficients, group) in coefficients.chunks_exact_mut(LANES).zip(&groups) {
+            for (i, coefficients) in coefficients.iter_mut().enumerate() {
+                for k in 0..N {
+                    coefficients[k] = group[k].0[i];
                 }
             }
         }
-        let steepness = 1.0 / alpha;
-        InterpolantRow {
-            power: self.power,
-            steepness,
-            scale: 1.0 / compressed(steepness, self.power),
-            coefficients,
-        }
     }
+    coefficients
 }
 
 impl<const N: usize> InterpolantRow<N> {
     /// The integrals at these n·v.
     #[inline(always)]
     pub fn at<B: Basis<N>, R: Real>(&self, basis: B, mu: [R; 2]) -> [Integrals<N, R>; 2] {
-        let of = |c: &[f64; N]| [c.map(R::from); 2];
-        let [first, second] = clenshaw(&self.coefficients, mu.map(|mu| self.place(mu)), of);
-        [unfollow(basis, mu[0], first), unfollow(basis, mu[1], second)]
+        let s = mu.map(|mu| self.place.of(mu));
+        let mut followed = side_at(&self.sides[0], s);
+        // On the jump itself the term is what it is beyond.
+        if let Some(beyond) = self.sides.get(1) {
+            let beyond = side_at(beyond, s);
+            for i in 0..2 {
+                for k in 0..N {
+                    followed[i][k] =
+                        mu[i].select_below(R::from(self.jump), followed[i][k], beyond[i][k]);
+                }
+            }
+        }
+        let [first, second] = followed;
+        [unfollow(self.follows, basis, mu[0], first), unfollow(self.follows, basis, mu[1], second)]
     }
+}
 
-    /// 2s - 1
-    #[inline(always)]
-    fn place<R: Real>(&self, mu: R) -> R {
-        let root = (compressed(mu * self.steepness, self.power) * self.scale).sqrt();
-        let s = if self.power == Power::Four { root.sqrt() } else { root };
-        s * 2.0 - 1.0
-    }
+/// The polynomials of one side at these s.
+#[inline(always)]
+fn side_at<const N: usize, R: Real>(
+    (from, inverse_length, coefficients): &(f64, f64, Vec<[f64; N]>),
+    s: [R; 2],
+) -> [[R; N]; 2] {
+    let x = s.map(|s| (s - *from) * (2.0 * inverse_length) - 1.0);
+    clenshaw(coefficients, x, |c: &[f64; N]| [c.map(R::from); 2])
 }

@@ -21,9 +21,10 @@
 //! The other weights take w by a Gauss rule in tan(w/2) = k sinh(c atanh g), k² = M α²(1+y²)/Q: the
 //! poles of D lie at tan(w/2) = ±ik.
 
-use super::Integrals;
+use super::{Integrals, Kernel};
 use crate::brdf::fresnel::Basis;
-use crate::brdf::{Masking, Microfacet};
+use crate::brdf::masking::approx_projected_area;
+use crate::brdf::{Masking, Microfacet, Ndf};
 use crate::numeric::lanes::Real;
 use crate::numeric::quadrature::gauss_legendre::{Node, gauss_legendre, half_gauss};
 use crate::numeric::quadrature::slope_map::{MappedSlope, Power, slope_at, slope_interval};
@@ -90,6 +91,19 @@ impl LightDirectionRule {
     }
 }
 
+impl Kernel for LightDirectionNodes {
+    #[inline(always)]
+    fn integrate<const N: usize, B: Basis<N>, R: Real>(
+        &self,
+        lobe: Microfacet,
+        basis: B,
+        mu: R,
+        alpha: R,
+    ) -> Integrals<N, R> {
+        light_directions(lobe, basis, mu, alpha, self)
+    }
+}
+
 /// The integrals of a GGX lobe at n·v = `mu` in [0, 1] and `alpha` in (0, 1].
 #[inline(always)]
 pub fn light_directions<const N: usize, B: Basis<N>, R: Real>(
@@ -99,6 +113,8 @@ pub fn light_directions<const N: usize, B: Basis<N>, R: Real>(
     alpha: R,
     nodes: &LightDirectionNodes,
 ) -> Integrals<N, R> {
+    // No other lobe need be compiled.
+    let lobe = Microfacet { ndf: Ndf::Ggx, ..lobe };
     let sv = (mu.complement() * (mu + 1.0)).sqrt();
     let view = View { mu, sv, alpha, a2: alpha * alpha, b2: alpha.complement() * (alpha + 1.0) };
     let area_v = lobe.masking_projected_area(mu, alpha);
@@ -204,11 +220,12 @@ impl<R: Real> View<R> {
     }
 }
 
-/// The layer of the height-correlated term within x ~ μ of the horizon, integrated in closed form
-/// and subtracted from the integrand of E: there n·l V = x/(2 (x a(μ) + μ a(x))), a(c) = √(α² + b2
-/// c²), changes faster than a fixed rule resolves as μ → 0. Where μ is no smaller than α/2 there is
-/// no layer, and the subtraction would cost digits. The other integrals, whose azimuth is not in
-/// closed form, leave it to the nodes that crowd at the horizon.
+/// The layer of the height-correlated term, or of its approximation, within x ~ μ of the horizon,
+/// integrated in closed form and subtracted from the integrand of E: there n·l V = x/(2 (x a(μ) +
+/// μ a(x))), a(c) = √(α² + b2 c²), changes faster than a fixed rule resolves as μ → 0. Where μ is
+/// no smaller than α/2 there is no layer, and the subtraction would cost digits. The other
+/// integrals, whose azimuth is not in closed form, leave it to the nodes that crowd at the
+/// horizon.
 struct Layer<R> {
     /// 2 α² ∫_0^1 n·l V dx, the layer's part of E, by |dx| = 2 α sl dy/f.
     e: R,
@@ -220,12 +237,22 @@ impl<R: Real> Layer<R> {
     #[inline(always)]
     fn of(lobe: Microfacet, mu: R, alpha: R) -> Self {
         let zero = R::from(0.0);
-        if lobe.masking != Masking::HeightCorrelated {
-            return Layer { e: zero, part: zero };
-        }
+        let mass = match lobe.masking {
+            Masking::HeightCorrelated => Self::mass,
+            Masking::HeightCorrelatedApprox => Self::approx_mass,
+            _ => return Layer { e: zero, part: zero },
+        };
         let grazing = |value| mu.select_below(alpha * 0.5, value, zero);
-        let e = alpha.zip(mu, |alpha, mu| 0.5 * alpha * Self::mass(mu, alpha));
+        let e = alpha.zip(mu, |alpha, mu| 0.5 * alpha * mass(mu, alpha));
         Layer { e: grazing(e), part: grazing(alpha * alpha * alpha) }
+    }
+
+    /// 4 α ∫_0^1 n·l V dx of the approximation, n·l V = x/(2 (p x + q)).
+    fn approx_mass(mu: f64, alpha: f64) -> f64 {
+        let p = approx_projected_area(mu, alpha) + mu * (1.0 - alpha);
+        let q = mu * alpha;
+        let log = if q > 0.0 { q / p * libm::log1p(p / q) } else { 0.0 };
+        2.0 * alpha / p * (1.0 - log)
     }
 
     /// 4 α ∫_0^1 n·l V dx. Multiplied by x a(μ) - μ a(x), the denominator becomes α² (x² - μ²), and

@@ -1,15 +1,17 @@
 //! A quadrature rule: its method, and the lobes that it serves for.
 
-pub use super::bounds::{CHARLIE_LIMIT, MARGIN};
+pub use super::bounds::{CHARLIE_LIMIT, CHARLIE_UNKNOWN, MARGIN};
 
 use super::Integrand;
 use super::bounds::{Bound, Columns};
 use super::double_exponential::DoubleExponentialRule;
 use super::glass::GlassRule;
 use super::half_vectors::HalfVectorRule;
-use super::interpolant::InterpolantRule;
+use super::interpolant::{Beyond, InterpolantRule};
 use super::light_directions::LightDirectionRule;
-use crate::brdf::{Fresnel, Masking, Microfacet, Ndf};
+use super::light_planes::LightPlaneRule;
+use super::rings::RingRule;
+use crate::brdf::{Masking, Microfacet, Ndf};
 
 /// The method of a rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +20,10 @@ pub enum Method {
     HalfVectors(HalfVectorRule),
     /// Over directions of light, the azimuth in closed form: GGX, CPU.
     LightDirections(LightDirectionRule),
+    /// Over directions of light, a lobe that ends: Beckmann and Blinn-Phong, CPU.
+    LightPlanes(LightPlaneRule),
+    /// Over half vectors about a ring at the horizon: Charlie, CPU.
+    Rings(RingRule),
     /// Double exponential: any lobe, CPU.
     DoubleExponential(DoubleExponentialRule),
     /// Interpolated between integrals: GGX with three masking terms, CPU.
@@ -54,6 +60,8 @@ impl Rule {
             Method::HalfVectors(_) => true,
             Method::Glass(rule) => rule.fits_f32(),
             Method::LightDirections(_)
+            | Method::LightPlanes(_)
+            | Method::Rings(_)
             | Method::DoubleExponential(_)
             | Method::Interpolant(_)
             | Method::ClosedForm => false,
@@ -70,10 +78,19 @@ impl Rule {
             (Method::ClosedForm | Method::Glass(_), _)
             | (_, Integrand::Diffuse(_) | Integrand::Glass(_)) => false,
             (Method::LightDirections(_), Integrand::Specular(lobe, fresnel)) => {
-                light_directions_serve(lobe) && has_smooth_complement(fresnel)
+                lobe.ndf == Ndf::Ggx && fresnel.definition().smooth_complement
             }
-            (Method::Interpolant(_), Integrand::Specular(lobe, fresnel)) => {
-                interpolants_serve(lobe) && has_smooth_complement(fresnel)
+            (Method::LightPlanes(_), Integrand::Specular(lobe, fresnel)) => {
+                ends_like_gaussian(lobe.ndf) && fresnel.definition().smooth_complement
+            }
+            (Method::Rings(_), Integrand::Specular(lobe, fresnel)) => {
+                // The term that Charlie was fitted with is a power of n·l, which none resolves.
+                lobe.ndf == Ndf::Charlie
+                    && !lobe.diverges_at_grazing()
+                    && fresnel.definition().smooth_complement
+            }
+            (Method::Interpolant(rule), Integrand::Specular(lobe, fresnel)) => {
+                interpolant_serves(&rule, lobe) && fresnel.definition().smooth_complement
             }
             (
                 Method::HalfVectors(_) | Method::DoubleExponential(_),
@@ -89,38 +106,20 @@ impl Rule {
     }
 }
 
-/// The rules over directions of light take A from E and B, and their nodes for the azimuth are
-/// those that (1 - v·h)⁵ needs.
-fn has_smooth_complement(fresnel: Fresnel) -> bool {
-    match fresnel {
-        Fresnel::Schlick | Fresnel::SchlickF82 => true,
-        Fresnel::SchlickPower(_) | Fresnel::Dielectric(_) | Fresnel::Conductor(_) => false,
+/// The rules over planes of light directions cut slopes off where a Gaussian ends.
+fn ends_like_gaussian(ndf: Ndf) -> bool {
+    match ndf {
+        Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong => true,
+        Ndf::Ggx | Ndf::Charlie => false,
     }
 }
 
-/// The rules over directions of light have the azimuth of GGX in closed form, and subtract the
-/// layer of the height-correlated term, which its approximation has in another form.
-fn light_directions_serve(lobe: Microfacet) -> bool {
-    match lobe.ndf {
-        Ndf::Ggx => match lobe.masking {
-            Masking::HeightCorrelated
-            | Masking::Separable
-            | Masking::SchlickSmith
-            | Masking::Implicit => true,
-            Masking::HeightCorrelatedApprox | Masking::Neubelt => false,
-        },
-        Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong | Ndf::Charlie => false,
-    }
-}
-
-/// The interpolants follow what those rules integrate, but for the implicit term, whose albedo
-/// falls with μ².
-fn interpolants_serve(lobe: Microfacet) -> bool {
-    let followed = match lobe.masking {
-        Masking::HeightCorrelated | Masking::Separable | Masking::SchlickSmith => true,
-        Masking::HeightCorrelatedApprox | Masking::Implicit | Masking::Neubelt => false,
-    };
-    followed && light_directions_serve(lobe)
+/// Interpolants of E itself, not of what it is beyond a mirror's, do not follow the implicit term,
+/// whose albedo falls with μ². The term that Charlie was fitted with lets its albedo grow like 1/μ.
+fn interpolant_serves(rule: &InterpolantRule, lobe: Microfacet) -> bool {
+    rule.distributions.contains(&lobe.ndf)
+        && (rule.beyond == Beyond::Limit || lobe.masking != Masking::Implicit)
+        && !lobe.diverges_at_grazing()
 }
 
 /// The other rules take every term that depends on n·l and n·v alone: the double exponential ones

@@ -6,7 +6,12 @@ use super::double_exponential::DoubleExponentialRule;
 use super::glass::{Counts, GlassRule};
 use super::half_vectors::HalfVectorRule;
 use super::interpolant::InterpolantRule;
+use super::interpolant::nodes::{
+    S640_NODES, S1440_NODES, S2080_NODES, S2304_NODES, S2432_NODES, S2560_NODES,
+};
 use super::light_directions::LightDirectionRule;
+use super::light_planes::LightPlaneRule;
+use super::rings::RingRule;
 use super::rule::{Method, Rule};
 use crate::numeric::quadrature::slope_map::Power;
 
@@ -119,14 +124,34 @@ pub const L512: Rule = rule("l512", Method::LightDirections(L512_NODES), |bounds
 /// Over directions of light, the finest; [`S2304`] takes its integrals.
 pub const L4608: Rule = rule("l4608", Method::LightDirections(L4608_NODES), |bounds| bounds.l4608);
 
-/// Interpolated, the cheaper.
-pub const S640: Rule = interpolant("s640", [32, 20], Power::Two, L512_NODES, |bounds| bounds.s640);
-/// Interpolated, the finer: the first stage of certification.
-pub const S2304: Rule =
-    interpolant("s2304", [64, 36], Power::Four, L4608_NODES, |bounds| bounds.s2304);
+/// Over planes of light directions, the cheaper.
+pub const P480: Rule = light_planes("p480", [40, 12], |bounds| bounds.p480);
+/// Over planes of light directions, the finer.
+pub const P1024: Rule = light_planes("p1024", [64, 16], |bounds| bounds.p1024);
+
+/// About a ring, the cheaper.
+pub const R456: Rule = ring("r456", ring_nodes([24, 16, 12, 6]), |bounds| bounds.r456);
+/// About a ring, the finer.
+pub const R1344: Rule = ring("r1344", R1344_NODES, |bounds| bounds.r1344);
+
+/// About a ring, the finest.
+pub const R2552: Rule = ring("r2552", ring_nodes([56, 42, 20, 10]), |bounds| bounds.r2552);
+
+/// Interpolated, the cheapest for GGX.
+pub const S640: Rule = interpolant("s640", S640_NODES, |bounds| bounds.s640);
+/// Interpolated, for GGX: the first stage of certification.
+pub const S1440: Rule = interpolant("s1440", S1440_NODES, |bounds| bounds.s1440);
+/// Interpolated, the finest for GGX.
+pub const S2304: Rule = interpolant("s2304", S2304_NODES, |bounds| bounds.s2304);
+/// Interpolated in pieces, for Beckmann: the first stage of certification.
+pub const S2080: Rule = interpolant("s2080", S2080_NODES, |bounds| bounds.s2080);
+/// Interpolated in pieces, for Blinn-Phong: the first stage of certification.
+pub const S2560: Rule = interpolant("s2560", S2560_NODES, |bounds| bounds.s2560);
+/// Interpolated in pieces, for Charlie: the first stage of certification.
+pub const S2432: Rule = interpolant("s2432", S2432_NODES, |bounds| bounds.s2432);
 
 /// Every rule.
-pub const RULES: [Rule; 20] = [
+pub const RULES: [Rule; 29] = [
     CLOSED_FORM,
     H56,
     H130,
@@ -140,8 +165,17 @@ pub const RULES: [Rule; 20] = [
     L288,
     L512,
     L4608,
+    P480,
+    P1024,
+    R456,
+    R1344,
+    R2552,
     S640,
+    S1440,
     S2304,
+    S2080,
+    S2560,
+    S2432,
     G112,
     G560,
     G904,
@@ -158,8 +192,12 @@ const L288_NODES: LightDirectionRule =
 /// The nodes of [`L512`].
 pub const L512_NODES: LightDirectionRule =
     LightDirectionRule { slope: 32, azimuth: 16, power: Power::Two };
-const L4608_NODES: LightDirectionRule =
+/// The nodes of [`L4608`].
+pub const L4608_NODES: LightDirectionRule =
     LightDirectionRule { slope: 96, azimuth: 48, power: Power::Four };
+
+/// The nodes of [`R1344`].
+pub const R1344_NODES: RingRule = ring_nodes([40, 30, 16, 9]);
 
 type Column = fn(&Columns) -> Bound;
 
@@ -176,6 +214,19 @@ const fn nodes(counts: [usize; 4], power: Power) -> HalfVectorRule {
     HalfVectorRule { radial, azimuth, radial_horizon, azimuth_horizon, power }
 }
 
+const fn light_planes(name: &'static str, [slope, azimuth]: [usize; 2], column: Column) -> Rule {
+    rule(name, Method::LightPlanes(LightPlaneRule { slope, azimuth }), column)
+}
+
+const fn ring(name: &'static str, nodes: RingRule, column: Column) -> Rule {
+    rule(name, Method::Rings(nodes), column)
+}
+
+const fn ring_nodes(counts: [usize; 4]) -> RingRule {
+    let [radial, azimuth, radial_full, azimuth_full] = counts;
+    RingRule { radial, azimuth, radial_full, azimuth_full }
+}
+
 const fn double_exponential(
     name: &'static str,
     [outer, inner]: [usize; 2],
@@ -184,16 +235,6 @@ const fn double_exponential(
     rule(name, Method::DoubleExponential(DoubleExponentialRule { outer, inner }), column)
 }
 
-const fn interpolant(
-    name: &'static str,
-    [directions, roughnesses]: [usize; 2],
-    power: Power,
-    source: LightDirectionRule,
-    column: Column,
-) -> Rule {
-    rule(
-        name,
-        Method::Interpolant(InterpolantRule { directions, roughnesses, power, source }),
-        column,
-    )
+const fn interpolant(name: &'static str, nodes: InterpolantRule, column: Column) -> Rule {
+    rule(name, Method::Interpolant(nodes), column)
 }

@@ -5,6 +5,7 @@
 //! same bits as the scalar would.
 
 use std::array::from_fn;
+use std::marker::PhantomData;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Lanes of an [`F64x8`]: those of AVX-512, the widest registers of today's CPUs.
@@ -48,6 +49,10 @@ pub trait Real:
     /// f(x, y) in every lane, computed in f64: for functions without a vector instruction.
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self;
 
+    /// f(x, y), called: a long formula is compiled once, not into every loop that needs it, and
+    /// its vector instructions are better for it.
+    fn call<F: Function>(self, other: Self) -> Self;
+
     /// `yes` in the lanes where this is below `limit`, else `no`.
     fn select_below(self, limit: Self, yes: Self, no: Self) -> Self;
 
@@ -85,6 +90,12 @@ pub trait Real:
     }
 }
 
+/// A function of two numbers for [`Real::call`].
+pub trait Function {
+    /// f(x, y)
+    fn at<R: Real>(x: R, y: R) -> R;
+}
+
 /// Lanes that a loop over texels fills and empties.
 pub trait Vector: Real {
     /// The number of lanes.
@@ -111,6 +122,11 @@ impl Real for f64 {
     #[inline(always)]
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         f(self, other)
+    }
+
+    #[inline(always)]
+    fn call<F: Function>(self, other: Self) -> Self {
+        F::at(self, other)
     }
 
     #[inline(always)]
@@ -145,6 +161,11 @@ macro_rules! lanes {
             #[inline(always)]
             fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
                 $name(from_fn(|i| f(self.0[i].into(), other.0[i].into()) as $scalar))
+            }
+
+            #[inline(never)]
+            fn call<F: Function>(self, other: Self) -> Self {
+                vectorised(Call::<F, Self> { x: self, y: other, function: PhantomData })
             }
 
             #[inline(always)]
@@ -235,6 +256,22 @@ lanes!(
     1,
     ROUND_F32
 );
+
+/// The work of [`Real::call`].
+struct Call<F, R> {
+    x: R,
+    y: R,
+    function: PhantomData<F>,
+}
+
+impl<F: Function, R: Real> Work for Call<F, R> {
+    type Output = R;
+
+    #[inline(always)]
+    fn call(self) -> R {
+        F::at(self.x, self.y)
+    }
+}
 
 /// Work that [`vectorised`] runs.
 #[cfg(feature = "simd")]

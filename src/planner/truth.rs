@@ -71,8 +71,9 @@ impl Truth {
     /// Works out the interpolant of a lobe.
     pub fn new(lobe: Microfacet) -> Self {
         let Method::Interpolant(rule) = S2304.method else { unreachable!("S2304 interpolates") };
-        let integrals = bake_points(lobe, &rule.points(), fine_rule(lobe));
-        let interpolant = rule.fit(Schlick, &integrals);
+        let integrate = |points: Vec<(f64, f64)>| bake_points(lobe, &points, fine_rule(lobe));
+        let integrals: Vec<_> = rule.points(lobe).into_iter().map(integrate).collect();
+        let interpolant = rule.fit(lobe, Schlick, &integrals);
         let promised = if S2304.applies_to(lobe) { S2304.bound(lobe) } else { 0.0 };
         let (norms, fine) = (OnceLock::new(), Baker::new(lobe, fine_rule(lobe)));
         Truth { lobe, rule, interpolant, norms, fine, promised }

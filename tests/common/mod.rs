@@ -10,12 +10,9 @@ use splitsum::certify::decision::Task;
 use splitsum::certify::stages::Stages;
 use splitsum::certify::ziv::{DeviceTable, certify_band};
 use splitsum::choice::Choice;
-use splitsum::integrate::double_exponential::{DoubleExponentialNodes, double_exponential};
-use splitsum::integrate::half_vectors::{HalfVectorNodes, half_vectors};
-use splitsum::integrate::light_directions::{LightDirectionNodes, light_directions};
 use splitsum::integrate::rule::{Method, Rule};
 use splitsum::integrate::rules::REFERENCE;
-use splitsum::integrate::{Field, ScaleBias};
+use splitsum::integrate::{Field, Kernel, ScaleBias};
 use splitsum::lut::{Dfg, DfgChannels, Lut, Part};
 use splitsum::numeric::half;
 use splitsum::numeric::quadrature::tanh_sinh::tanh_sinh;
@@ -81,44 +78,37 @@ pub fn domain(count: usize) -> Vec<(f64, f64)> {
 /// A rule at single points, in single numbers where the CPU takes eight at a time.
 pub struct Integrator {
     rule: Rule,
-    nodes: Nodes,
+    at: Box<dyn Fn(Microfacet, f64, f64) -> [f64; 2] + Sync>,
 }
 
-enum Nodes {
-    HalfVectors(HalfVectorNodes),
-    LightDirections(LightDirectionNodes),
-    DoubleExponential(DoubleExponentialNodes),
-    None,
+/// A kernel in single numbers.
+fn single<K: Kernel>(nodes: K) -> Box<dyn Fn(Microfacet, f64, f64) -> [f64; 2] + Sync> {
+    Box::new(move |lobe, mu, alpha| nodes.integrate(lobe, Schlick, mu, alpha).0)
 }
 
 impl Integrator {
-    /// The nodes of a rule; of an interpolant those of its source.
+    /// The nodes of a rule.
     pub fn new(rule: Rule) -> Self {
-        let nodes = match rule.method {
-            Method::HalfVectors(rule) => Nodes::HalfVectors(rule.nodes()),
-            Method::LightDirections(rule) => Nodes::LightDirections(rule.nodes()),
-            Method::DoubleExponential(rule) => Nodes::DoubleExponential(rule.nodes()),
-            Method::Interpolant(rule) => Nodes::LightDirections(rule.source.nodes()),
-            Method::Glass(_) | Method::ClosedForm => Nodes::None,
+        let at = match rule.method {
+            Method::HalfVectors(rule) => single(rule.nodes()),
+            Method::LightDirections(rule) => single(rule.nodes()),
+            Method::LightPlanes(rule) => single(rule.nodes()),
+            Method::Rings(rule) => single(rule.nodes()),
+            Method::DoubleExponential(rule) => single(rule.nodes()),
+            Method::Interpolant(_) => Box::new(move |lobe, mu, alpha| {
+                cpu::bake_points(lobe, &[(mu, alpha)], &rule).scale_bias()[0].array()
+            }),
+            Method::Glass(_) | Method::ClosedForm => Box::new(|_, _, _| [f64::NAN; 2]),
         };
-        Integrator { rule, nodes }
+        Integrator { rule, at }
     }
 
-    /// (A, B) of a lobe; NaN where the rule is none for specular lobes.
+    /// (A, B) of a lobe; NaN where the rule is no quadrature for specular lobes.
     pub fn integrate(&self, lobe: Microfacet, mu: f64, alpha: f64) -> ScaleBias {
         if alpha == 0.0 {
             return cpu::bake_points(lobe, &[(mu, alpha)], &self.rule).scale_bias()[0];
         }
-        match &self.nodes {
-            Nodes::HalfVectors(nodes) => half_vectors(lobe, Schlick, mu, alpha, nodes).0.into(),
-            Nodes::LightDirections(nodes) => {
-                light_directions(lobe, Schlick, mu, alpha, nodes).0.into()
-            }
-            Nodes::DoubleExponential(nodes) => {
-                double_exponential(lobe, Schlick, mu, alpha, nodes).0.into()
-            }
-            Nodes::None => ScaleBias { a: f64::NAN, b: f64::NAN },
-        }
+        (self.at)(lobe, mu, alpha).into()
     }
 }
 

@@ -30,6 +30,8 @@ impl Glass {
             Method::DoubleExponential(rule) => Nodes::AboutView(about_view(interface, rule)),
             Method::HalfVectors(_)
             | Method::LightDirections(_)
+            | Method::LightPlanes(_)
+            | Method::Rings(_)
             | Method::Interpolant(_)
             | Method::ClosedForm => Nodes::AboutView(about_view(interface, REFERENCE_NODES)),
         };

@@ -53,6 +53,7 @@ impl Basis<1> for Conductor {
                   n + ik",
         albedo: "E = R",
         channels: "r",
+        smooth_complement: false,
         integrals: &[Integral {
             name: "R",
             meaning: "directional albedo of the interface: E = R",

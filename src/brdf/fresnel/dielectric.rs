@@ -56,6 +56,7 @@ impl Basis<1> for Dielectric {
                   n",
         albedo: "E = R",
         channels: "r",
+        smooth_complement: false,
         integrals: &[Integral {
             name: "R",
             meaning: "directional albedo of the interface: E = R",

@@ -32,6 +32,7 @@ pub(super) const DEFINITION: Definition = Definition {
     formula: "Schlick: F = F0 + (1 - F0) (1 - v.h)^5",
     albedo: "E(F0) = F0*A + B",
     channels: "ab",
+    smooth_complement: true,
     integrals: &[A, B],
     wgsl: (include_str!("../../../shaders/schlick.wgsl"), "schlick_weights"),
 };

@@ -26,6 +26,7 @@ impl Basis<3> for SchlickF82 {
                   (F0 + (1 - F0) (6/7)^5) (1 - tint) 7 (7/6)^6",
         albedo: "E(F0, tint) = F0*A + B - a*C",
         channels: "abc",
+        smooth_complement: true,
         integrals: &[
             Integral {
                 name: "A",

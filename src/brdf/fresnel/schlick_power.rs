@@ -46,6 +46,7 @@ impl Basis<2> for SchlickPower {
         usage: "schlick:EXPONENT",
         about: "the same with another exponent, from 1 to 20",
         formula: "Schlick with exponent p: F = F0 + (1 - F0) (1 - v.h)^p",
+        smooth_complement: false,
         integrals: &[
             super::schlick::A,
             // 1 - v·h is a few roundings of 1 off, which counts where p = 1.

@@ -4,7 +4,7 @@
 
 use super::{Definition, Wgsl};
 use crate::brdf::masking::Masking::{self, HeightCorrelated, Implicit, SchlickSmith, Separable};
-use crate::numeric::lanes::Real;
+use crate::numeric::lanes::{Function, Real};
 use crate::numeric::special::{exponential, ierfc};
 use std::f64::consts::FRAC_1_PI;
 
@@ -53,26 +53,37 @@ pub fn beckmann_slope_density<R: Real>(y2: R) -> R {
 ///
 /// Written c + α sin θ i¹erfc(a), it has no difference of near-equal numbers and is finite at c =
 /// 0.
-pub fn beckmann_projected_area(c: f64, alpha: f64) -> f64 {
+#[inline(always)]
+pub fn beckmann_projected_area<R: Real>(c: R, alpha: R) -> R {
     let width = beckmann_width(c, alpha);
     c + width * ierfc(c / width)
 }
 
-/// The same with Walter's rational Λ, (1 - 1.259a + 0.396a²)/(3.535a + 2.181a²) for a < 1.6, else 0
-/// (Walter et al. 2007, section 5.2, as Λ). At a = 1.6 it jumps by 5.7e-5.
-pub fn walter_projected_area(c: f64, alpha: f64) -> f64 {
-    let width = beckmann_width(c, alpha);
-    let a = c / width;
-    if a < 1.6 {
-        c + width * 2.0 * (1.0 - 1.259 * a + 0.396 * a * a) / (3.535 + 2.181 * a)
-    } else {
-        c
+/// [`beckmann_projected_area`], to be called.
+pub struct ProjectedArea;
+
+impl Function for ProjectedArea {
+    #[inline(always)]
+    fn at<R: Real>(c: R, alpha: R) -> R {
+        beckmann_projected_area(c, alpha)
     }
 }
 
-/// α sin θ, kept above 0 so that c can be divided by it.
-pub fn beckmann_width(c: f64, alpha: f64) -> f64 {
-    (alpha * ((1.0 - c) * (1.0 + c)).sqrt()).max(1e-30)
+/// The same with Walter's rational Λ, (1 - 1.259a + 0.396a²)/(3.535a + 2.181a²) for a < 1.6, else 0
+/// (Walter et al. 2007, section 5.2, as Λ). At a = 1.6 it jumps by 5.7e-5.
+#[inline(always)]
+pub fn walter_projected_area<R: Real>(c: R, alpha: R) -> R {
+    let width = beckmann_width(c, alpha);
+    let a = c / width;
+    let masked = (a * a * 0.396 - a * 1.259 + 1.0) * 2.0 / (a * 2.181 + 3.535);
+    c + width * a.select_below(R::from(1.6), masked, R::from(0.0))
+}
+
+/// α sin θ, kept above 0 so that c can be divided by it; a c that rounding has put beyond 1 is 1.
+#[inline(always)]
+pub fn beckmann_width<R: Real>(c: R, alpha: R) -> R {
+    let sine2 = (c.complement() * (c + 1.0)).max(R::from(0.0));
+    (alpha * sine2.sqrt()).max(R::from(1e-30))
 }
 
 /// The n·l at which Walter's Λ jumps: a = 1.6.

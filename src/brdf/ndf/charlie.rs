@@ -5,7 +5,7 @@
 
 use super::{Definition, Wgsl};
 use crate::brdf::masking::Masking::{HeightCorrelated, Implicit, Neubelt};
-use crate::numeric::lanes::Real;
+use crate::numeric::lanes::{Function, Real};
 use crate::numeric::special::{exponential, log1p_ratio, logarithm};
 use std::f64::consts::FRAC_2_PI;
 
@@ -51,22 +51,35 @@ pub fn charlie_slope_density<R: Real>(y2: R, alpha: R) -> R {
 /// c (1 + 2Λ(c)) with the Λ that Estevez and Kulla fitted: e^L(c) for c < 1/2, else e^(2 L(1/2) -
 /// L(1-c)). With c the term falls to 0 (to 1e-30 of it, so that it can divide), and the lobe's
 /// albedo diverges like 1/n·v.
-pub fn charlie_projected_area(c: f64, alpha: f64) -> f64 {
-    let lambda = if c < 0.5 {
-        charlie_lambda(c, alpha)
-    } else {
-        let middle = charlie_lambda(0.5, alpha);
-        middle * middle / charlie_lambda(1.0 - c, alpha)
-    };
-    c.max(1e-30) * (1.0 + 2.0 * lambda)
+#[inline(always)]
+pub fn charlie_projected_area<R: Real>(c: R, alpha: R) -> R {
+    let half = R::from(0.5);
+    let nearer = charlie_lambda(c.min(c.complement()), alpha);
+    let middle = charlie_lambda(half, alpha);
+    let lambda = c.select_below(half, nearer, middle * middle / nearer);
+    c.max(R::from(1e-30)) * (lambda * 2.0 + 1.0)
+}
+
+/// [`charlie_projected_area`], to be called.
+pub struct ProjectedArea;
+
+impl Function for ProjectedArea {
+    #[inline(always)]
+    fn at<R: Real>(c: R, alpha: R) -> R {
+        charlie_projected_area(c, alpha)
+    }
 }
 
 /// e^L(x), L(x) = a/(1 + b x^p) + d x + e, the parameters between those of α = 0 and α = 1 by
 /// (1-α)² (Estevez and Kulla 2017, the table of their fit; their roughness is the α of D).
-pub fn charlie_lambda(x: f64, alpha: f64) -> f64 {
-    let s = 1.0 - alpha;
-    let mix = |smooth: f64, rough: f64| rough + s * s * (smooth - rough);
-    let power = if x > 0.0 { exponential(mix(0.16801, 0.19823) * logarithm(x)) } else { 0.0 };
+#[inline(always)]
+pub fn charlie_lambda<R: Real>(x: R, alpha: R) -> R {
+    let s = alpha.complement();
+    let mix = |smooth: f64, rough: f64| s * s * (smooth - rough) + rough;
+    // x^p is 1e-6 of the sum below there, and 0 at x = 0.
+    let tiny = R::from(1e-36);
+    let power = exponential(mix(0.16801, 0.19823) * logarithm(x.max(tiny)));
+    let power = x.select_below(tiny, R::from(0.0), power);
     let slope = mix(-1.27393, -1.97760) * x + mix(-4.85967, -4.32054);
-    exponential(mix(25.3245, 21.5473) / (1.0 + mix(3.32435, 3.82987) * power) + slope)
+    exponential(mix(25.3245, 21.5473) / (mix(3.32435, 3.82987) * power + 1.0) + slope)
 }

@@ -4,7 +4,8 @@
 //! A polynomial of degree n is nowhere larger than its largest value at the N > n zeros of T_N over
 //! cos(π n/2N) (Ehlich and Zeller 1964), and one in two variables is so along each.
 
-use super::{Interpolant, LANES, chebyshev_node};
+use super::chebyshev::chebyshev_node;
+use super::{Interpolant, LANES};
 use std::array::from_fn;
 use std::f64::consts::PI;
 
@@ -27,7 +28,7 @@ const ZEROS: usize = 3;
 type Coefficients = Vec<Vec<f64>>;
 
 impl<const N: usize> Interpolant<N> {
-    /// The norms of E and of the rests.
+    /// The norms of E, less a constant, and of the rests, of an interpolant in one piece.
     pub fn norms(&self) -> [Norms; N] {
         from_fn(|k| norms(&self.of(k)))
     }
@@ -37,7 +38,7 @@ impl<const N: usize> Interpolant<N> {
         let row = |row: &Vec<[crate::numeric::lanes::F64x8; N]>| {
             (0..row.len() * LANES).map(|i| row[i / LANES][k].0[i % LANES]).collect()
         };
-        self.coefficients.iter().map(row).collect()
+        self.pieces[0].sides[0].iter().map(row).collect()
     }
 }
 

@@ -1,0 +1,83 @@
+//! Certified tables of every lobe beside 1,024 samples of the same: what a table costs whose every
+//! value is right, over what most bakers pay.
+
+use splitsum::backend::Backend;
+use splitsum::brdf::{Fresnel, Microfacet, Ndf};
+use splitsum::compare::study::{median, timed};
+use splitsum::compare::technique::{Arithmetic, BASELINE, Setting};
+use splitsum::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
+use splitsum::request::Request;
+use splitsum::table::grid::Grid;
+use splitsum::table::precision::Precision;
+use splitsum::units::F0;
+
+/// Texels along either edge of the tables.
+const SIZES: [usize; 2] = [128, 512];
+
+/// Turns of a table and its samples.
+const TURNS: usize = 3;
+
+/// The table of a lobe.
+fn request(lut: Lut, size: usize) -> Request {
+    Request::with_default_axes(lut, (size, size), Precision::F16).unwrap()
+}
+
+fn dfg(lobe: Microfacet) -> Lut {
+    Lut::Dfg(Dfg::new(lobe, Fresnel::Schlick, DfgChannels::All).unwrap())
+}
+
+/// The median times of two works that take turns, the first in vain.
+fn in_turns(mut ours: impl FnMut(), mut theirs: impl FnMut()) -> [f64; 2] {
+    let turn = |_| [timed(&mut ours).1, timed(&mut theirs).1];
+    let turns: Vec<[f64; 2]> = (0..=TURNS).map(turn).skip(1).collect();
+    [0, 1].map(|which| median(turns.iter().map(|turn| turn[which]).collect()))
+}
+
+/// Prints both tables.
+pub fn lobes() {
+    let seconds = |lobe: Microfacet, size: usize| {
+        let grid: Grid = request(dfg(lobe), size).grid().clone();
+        let run = |setting: Setting, arithmetic| {
+            setting.run(lobe, &grid, arithmetic, 1).unwrap();
+        };
+        in_turns(
+            || run(Setting::Certified(Precision::F16), Arithmetic::F64),
+            || run(BASELINE, Arithmetic::F32),
+        )
+    };
+    println!(
+        "| certified f16 | 128 x 128 ms | 1,024 samples ms | ratio | 512 x 512 ms | samples ms | ratio |"
+    );
+    println!("{}|", "| --- ".repeat(7));
+    for lobe in Microfacet::all() {
+        let cells = SIZES.map(|size| {
+            let [ours, theirs] = seconds(lobe, size);
+            format!("{:.1} | {:.1} | {:.3}", 1e3 * ours, 1e3 * theirs, ours / theirs)
+        });
+        println!("| {}, {} | {} | {} |", lobe.ndf, lobe.masking, cells[0], cells[1]);
+    }
+    println!();
+    energy();
+}
+
+/// Tables of the energy split beside their lobe's A and B.
+fn energy() {
+    println!("| energy, certified f16, 128 x 128 | ms | ratio to A and B of the lobe |");
+    println!("{}|", "| --- ".repeat(3));
+    let backend = Backend::cpu();
+    for lobe in
+        [Ndf::Ggx, Ndf::Beckmann, Ndf::Charlie].map(|ndf| Microfacet::new(ndf, None).unwrap())
+    {
+        for &channels in <EnergyChannels as splitsum::Choice>::ALL {
+            let Ok(energy) = Energy::new(lobe, F0::new(0.04).unwrap(), channels) else { continue };
+            let (table, plain) =
+                (request(Lut::Energy(energy), SIZES[0]), request(dfg(lobe), SIZES[0]));
+            let bake = |request: &Request| {
+                splitsum::bake(request, &backend).unwrap();
+            };
+            let [ours, plain] = in_turns(|| bake(&table), || bake(&plain));
+            println!("| {}, {channels} | {:.1} | {:.2} |", lobe.ndf, 1e3 * ours, ours / plain);
+        }
+    }
+    println!();
+}
