@@ -51,7 +51,10 @@ pub trait Real:
 
     /// f(x, y), called: a long formula is compiled once, not into every loop that needs it, and
     /// its vector instructions are better for it.
-    fn call<F: Function>(self, other: Self) -> Self;
+    #[inline(always)]
+    fn call<F: Function>(self, other: Self) -> Self {
+        F::at(self, other)
+    }
 
     /// `yes` in the lanes where this is below `limit`, else `no`.
     fn select_below(self, limit: Self, yes: Self, no: Self) -> Self;
@@ -122,11 +125,6 @@ impl Real for f64 {
     #[inline(always)]
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         f(self, other)
-    }
-
-    #[inline(always)]
-    fn call<F: Function>(self, other: Self) -> Self {
-        F::at(self, other)
     }
 
     #[inline(always)]
