@@ -125,7 +125,8 @@ impl Microfacet {
 
     /// Whether the masking term jumps at its break, where Charlie's only bends.
     pub fn jumps(self) -> bool {
-        self.ndf == Ndf::BeckmannWalter
+        let smith = matches!(self.masking, Masking::HeightCorrelated | Masking::Separable);
+        self.ndf == Ndf::BeckmannWalter && smith
     }
 
     /// The n·l at which the masking term is not smooth, if there is one.

@@ -1,5 +1,5 @@
 //! From a lobe to numbers: the integrals of the weights of its Fresnel model over all directions of
-//! light, I_k = ∫ f/F w_k n·l dω, by quadrature in three forms or by interpolation between such
+//! light, I_k = ∫ f/F w_k n·l dω, by quadrature in five forms or by interpolation between such
 //! integrals.
 //!
 //! With Schlick's weights (1 - w, w) they are A and B of the split sum, E(F0) = F0 A + B (Karis

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use splitsum::backend::cpu;
 use splitsum::brdf::{Microfacet, Ndf};
 use splitsum::integrate::ScaleBias;
-use splitsum::integrate::rule::{CHARLIE_LIMIT, Rule};
+use splitsum::integrate::rule::{CHARLIE_LIMIT, CHARLIE_UNKNOWN, Rule};
 use splitsum::integrate::rules::REFERENCE;
 use splitsum::integrate::rules::{
     D6144, D10240, L4608, P480, P1024, R456, R1344, R2552, S1440, S2080, S2304, S2432, S2560,
@@ -53,11 +53,12 @@ fn points(lobe: Microfacet, count: usize) -> Vec<(f64, f64)> {
                 // Also where both are small, down to the smoothest row of an interpolant.
                 _ => (edge(u, 8.0), edge(v, 3.01)),
             };
-            let alpha = if lobe.ndf == Ndf::Charlie {
-                CHARLIE_LIMIT + (1.0 - CHARLIE_LIMIT) * r * r
-            } else {
-                r * r
+            let least = match lobe.ndf {
+                Ndf::Charlie if lobe.diverges_at_grazing() => CHARLIE_LIMIT,
+                Ndf::Charlie => CHARLIE_UNKNOWN,
+                _ => 0.0,
             };
+            let alpha = least + (1.0 - least) * r * r;
             (if lobe.diverges_at_grazing() { mu.max(1e-4) } else { mu }, alpha)
         })
         .collect()

@@ -235,7 +235,7 @@ fn specular<const N: usize, B: Basis<N>>(lobe: Microfacet, basis: B, rule: &Rule
     }
 }
 
-/// The same for the models of which these rules take the complement.
+/// The same for models with a smooth complement.
 fn smooth<const N: usize, B: Basis<N>>(lobe: Microfacet, basis: B, rule: &Rule) -> Arc<dyn Work> {
     match rule.method {
         Method::LightDirections(rule) => quadrature(lobe, basis, rule.nodes()),

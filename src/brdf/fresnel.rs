@@ -95,9 +95,9 @@ pub struct Definition {
     pub albedo: &'static str,
     /// The word of a table's channels that are all integrals: their letters.
     pub channels: &'static str,
-    /// Whether the first weight is 1 less the second, and that a low power of 1 - v·h: the rules
-    /// over directions of light take A from E and B, and their nodes for the azimuth are those that
-    /// (1 - v·h)⁵ needs.
+    /// Whether the first weight is 1 less the second, and the others fifth and sixth powers of 1 -
+    /// v·h: the rules over directions of light take A from E and B, and those of a distribution's
+    /// own were measured with such weights alone.
     pub smooth_complement: bool,
     /// The integrals of the weights, in order.
     pub integrals: &'static [Integral],

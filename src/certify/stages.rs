@@ -34,7 +34,8 @@ pub fn rules(task: &Task) -> Vec<Rule> {
         precision if precision.is_rounded_once() => Rule::for_rounding(integrand, texels),
         _ => Rule::for_cpu(integrand, task.tolerance, texels),
     };
-    // At a roughness where Charlie's rules are as sharp as any lobe's.
+    // At a roughness where Charlie's rules are as sharp as any lobe's, and Blinn-Phong's own have
+    // no bound: what is left of it goes to d10240.
     let error = |rule: &Rule| rule.bound_at(integrand, 1.0);
     let mut rules: Vec<Rule> = first.into_iter().collect();
     let finer = [G904, G4536, L4608, P1024, R2552, D10240, REFERENCE, CLOSED_FORM];

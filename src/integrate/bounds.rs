@@ -13,7 +13,7 @@ use crate::brdf::{Masking, Microfacet, Ndf};
 pub const CHARLIE_LIMIT: f64 = 0.0049;
 
 /// Above this α (roughness 0.7) Blinn-Phong falls like a low power of the slope, and the rules over
-/// planes of light directions do not serve.
+/// planes of light directions are given no bound; s2560 takes one's integrals up to 0.5625.
 pub const BLINN_PHONG_LIMIT: f64 = 0.49;
 
 /// Below this α (roughness 1e-5) the reference keeps 2e-6 of Charlie only, and nothing is known
@@ -127,7 +127,8 @@ pub struct Columns {
     pub g4536: Bound,
 }
 
-/// The bounds for a lobe at an α; for Charlie they are wider below [`CHARLIE_LIMIT`].
+/// The bounds for a lobe at an α: for Charlie wider below [`CHARLIE_LIMIT`], and wider still below
+/// [`CHARLIE_UNKNOWN`]; for Blinn-Phong wider above [`BLINN_PHONG_LIMIT`].
 pub const fn columns(lobe: Microfacet, alpha: f64) -> &'static Columns {
     match lobe.ndf {
         Ndf::Ggx => &GGX,
@@ -221,7 +222,7 @@ const CHARLIE_BELOW_LIMIT: Columns = Columns {
     r456: sharp(5e-7, 4e-6, 4e-9),
     r1344: sharp(8e-9, 2e-6, 1e-12),
     r2552: sharp(1e-9, 3e-7, 1e-12),
-    s2432: sharp(8e-9, 1e-6, 1e-9),
+    s2432: sharp(8e-9, 2e-6, 1e-9),
     ..SMOOTH
 };
 

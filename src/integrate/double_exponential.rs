@@ -1,5 +1,5 @@
 //! The reference: the integral over directions of light, by double exponential quadrature in both
-//! variables. With fewer nodes it is the finest of the cheap rules, for any lobe.
+//! variables, for any lobe.
 //!
 //! In the plane of v and n, T = tan((θ_v - θ_l)/2) is the slope of the half vector; w is the
 //! azimuth of l from the mirror direction, z = tan(w/2). Then tan² θ_h = t = T² + 4 sin θ_v sin

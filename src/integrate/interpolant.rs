@@ -42,20 +42,20 @@ const LANES: usize = F64x8::LANES;
 pub struct InterpolantRule {
     /// The perceptual roughness at which the first begins.
     pub start: f64,
-    /// The rule that integrates below.
+    /// The rule that integrates below, and above α = 1.
     pub below: Source,
     /// By ascending roughness, the last one up to 1.
     pub pieces: &'static [Piece],
     /// The distributions that it was made for.
     pub distributions: &'static [Ndf],
-    /// Of E what it is beyond.
+    /// What is subtracted from E before it is followed.
     pub beyond: Beyond,
 }
 
-/// What the first polynomial is beyond.
+/// What is subtracted from E before a polynomial follows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beyond {
-    /// Nothing: it is E, even over a jump.
+    /// Nothing: one polynomial follows E, even over a jump.
     Nothing,
     /// E(α → 0), and where the masking term jumps one polynomial on either side.
     Limit,
@@ -148,7 +148,7 @@ impl Follows {
         }
     }
 
-    /// What E is followed beyond.
+    /// What is subtracted from E.
     #[inline(always)]
     fn limit<R: Real>(self, mu: R) -> R {
         match self.beyond {
@@ -281,7 +281,7 @@ impl Piece {
     }
 }
 
-/// E - E(α → 0) and the rests of the integrals at n·v = `mu`.
+/// E less [`Follows::limit`], and the rests of the integrals, at n·v = `mu`.
 fn follow<const N: usize, B: Basis<N>>(
     follows: Follows,
     basis: B,

@@ -7,13 +7,14 @@
 //!
 //! E = ∫ (2 sin θ_l/(1+T²)) (n·l V) α dy ∫ D(t) F dw.
 //!
-//! *The slope.* Beyond |y| = 6.3 nothing is left of the lobe, so that a Gauss rule on what is left
-//! converges at once. It crowds at the horizon, where the masking term has a layer, and is split
-//! where that term jumps.
+//! *The slope.* Beyond the lobe's end, |y| = 6.3 for Beckmann, there is nothing, so that a Gauss
+//! rule up to there converges at once. It crowds at the horizon, where the masking term has a
+//! layer, and is split where that term jumps.
 //!
-//! *The azimuth.* tan(w/2) = k tan(ψ/2), k² = 1/(1 + κ/10), κ = -τ² d ln D/dt, that of Beckmann (τ/α)²: a Möbius map of the circle
-//! onto itself, under which a peak of any width looks alike, and the integrand stays smooth and
-//! periodic. The midpoint rule in ψ converges faster than any power of its nodes.
+//! *The azimuth.* tan(w/2) = k tan(ψ/2), k² = 1/(1 + κ/10), κ = τ²/α² for Beckmann and
+//! τ² (1/α² - 1) for Blinn-Phong: how fast the exponent falls at the centre. It is a Möbius map of
+//! the circle onto itself, under which a peak of any width looks alike, and the integrand stays
+//! smooth and periodic. The midpoint rule in ψ converges faster than any power of its nodes.
 
 use super::half_vectors::TAIL_DEPTH;
 use super::{Integrals, Kernel};
@@ -55,8 +56,8 @@ struct AzimuthNode {
     weight: f64,
 }
 
-/// κ/10 in k²: of twelve nodes' errors it makes the largest over all κ least, 3e-9 of a Gaussian's
-/// integral.
+/// κ/10 in k². With twelve nodes this share makes the largest error over all κ smallest: 3e-9 of a
+/// Gaussian's integral.
 const SHARE: f64 = 0.1;
 
 impl LightPlaneRule {
@@ -178,7 +179,7 @@ impl<B, R: Real> View<B, R> {
         let m = (*mu + x) * (*mu + x);
         let ss = *sv * sl;
         let (t0, tau2, a2) = (slope * slope, ss * 4.0 / m, *alpha * *alpha);
-        // -d ln D/dt at the centre of the lobe.
+        // κ/τ²
         let fall = match lobe.ndf {
             Ndf::BlinnPhong => a2.recip() - 1.0,
             _ => a2.recip(),

@@ -26,7 +26,7 @@ pub enum Method {
     Rings(RingRule),
     /// Double exponential: any lobe, CPU.
     DoubleExponential(DoubleExponentialRule),
-    /// Interpolated between integrals: GGX with three masking terms, CPU.
+    /// Interpolated between integrals: every lobe but Charlie with its fitted term, CPU.
     Interpolant(InterpolantRule),
     /// Over half vectors with pieces at the critical angle: glass, CPU and device.
     Glass(GlassRule),
@@ -84,7 +84,7 @@ impl Rule {
                 ends_like_gaussian(lobe.ndf) && fresnel.definition().smooth_complement
             }
             (Method::Rings(_), Integrand::Specular(lobe, fresnel)) => {
-                // The term that Charlie was fitted with is a power of n·l, which none resolves.
+                // The term that Charlie was fitted with has a power of n·l, which none resolves.
                 lobe.ndf == Ndf::Charlie
                     && !lobe.diverges_at_grazing()
                     && fresnel.definition().smooth_complement

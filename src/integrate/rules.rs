@@ -37,7 +37,8 @@ pub const H6144: Rule =
 
 /// Double exponential, the cheapest.
 pub const D6144: Rule = double_exponential("d6144", [64, 48], |bounds| bounds.d6144);
-/// Double exponential: the last stage of certification before the reference.
+/// Double exponential: the last stage of certification before the reference where no rule of a
+/// lobe's own is finer.
 pub const D10240: Rule = double_exponential("d10240", [80, 64], |bounds| bounds.d10240);
 /// The rule that tables are measured against.
 pub const REFERENCE: Rule =
@@ -121,7 +122,8 @@ pub const G4536: Rule = glass_rule(
 pub const L288: Rule = rule("l288", Method::LightDirections(L288_NODES), |bounds| bounds.l288);
 /// Over directions of light; [`S640`] takes its integrals.
 pub const L512: Rule = rule("l512", Method::LightDirections(L512_NODES), |bounds| bounds.l512);
-/// Over directions of light, the finest; [`S2304`] takes its integrals.
+/// Over directions of light, the finest; [`S2304`] takes its integrals, and [`S1440`] outside of
+/// its domain.
 pub const L4608: Rule = rule("l4608", Method::LightDirections(L4608_NODES), |bounds| bounds.l4608);
 
 /// Over planes of light directions, the cheaper.
@@ -129,11 +131,10 @@ pub const P480: Rule = light_planes("p480", [40, 12], |bounds| bounds.p480);
 /// Over planes of light directions, the finer.
 pub const P1024: Rule = light_planes("p1024", [64, 16], |bounds| bounds.p1024);
 
-/// About a ring, the cheaper.
+/// About a ring, the cheapest.
 pub const R456: Rule = ring("r456", ring_nodes([24, 16, 12, 6]), |bounds| bounds.r456);
-/// About a ring, the finer.
+/// About a ring; [`S2432`] takes its integrals.
 pub const R1344: Rule = ring("r1344", R1344_NODES, |bounds| bounds.r1344);
-
 /// About a ring, the finest.
 pub const R2552: Rule = ring("r2552", ring_nodes([56, 42, 20, 10]), |bounds| bounds.r2552);
 

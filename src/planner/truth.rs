@@ -98,8 +98,11 @@ impl Truth {
     pub fn row(&self, roughness: f64, novs: &[f64]) -> Vec<Albedo> {
         let alpha = alpha_of(roughness);
         if alpha == 0.0 {
-            // A mirror reflects F.
-            return novs.iter().map(|&nov| Albedo { e: 1.0, b: schlick_weight(nov) }).collect();
+            let mirror = |&nov: &f64| {
+                let e = self.lobe.smooth_limit(nov);
+                Albedo { e, b: schlick_weight(nov) * e }
+            };
+            return novs.iter().map(mirror).collect();
         }
         if !self.rule.covers(alpha) {
             let points: Vec<(f64, f64)> = novs.iter().map(|&nov| (nov, alpha)).collect();

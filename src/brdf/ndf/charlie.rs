@@ -76,7 +76,7 @@ impl Function for ProjectedArea {
 pub fn charlie_lambda<R: Real>(x: R, alpha: R) -> R {
     let s = alpha.complement();
     let mix = |smooth: f64, rough: f64| s * s * (smooth - rough) + rough;
-    // x^p is 1e-6 of the sum below there, and 0 at x = 0.
+    // 0 at x = 0; what light from below there adds is nothing.
     let tiny = R::from(1e-36);
     let power = exponential(mix(0.16801, 0.19823) * logarithm(x.max(tiny)));
     let power = x.select_below(tiny, R::from(0.0), power);

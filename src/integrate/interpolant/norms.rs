@@ -28,7 +28,7 @@ const ZEROS: usize = 3;
 type Coefficients = Vec<Vec<f64>>;
 
 impl<const N: usize> Interpolant<N> {
-    /// The norms of E, less a constant, and of the rests, of an interpolant in one piece.
+    /// The norms of what is followed of E and of the rests, of an interpolant in one piece.
     pub fn norms(&self) -> [Norms; N] {
         from_fn(|k| norms(&self.of(k)))
     }
