@@ -14,7 +14,7 @@ use std::fs;
 use tempfile::tempdir;
 
 /// A bake that is worth a device's while.
-const LARGE: &str = "bake --model beckmann --size 128 -o a.exr";
+const LARGE: &str = "bake --model beckmann --fresnel dielectric:1.5 --size 192 -o a.exr";
 
 #[test]
 fn the_same_request_gives_the_same_bytes_on_any_number_of_threads() {
