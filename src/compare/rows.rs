@@ -7,9 +7,7 @@ use super::sampling::{HalfVector, Sampler, View, estimate, sampled_half_vectors}
 use crate::brdf::Microfacet;
 use crate::brdf::fresnel::Schlick;
 use crate::choice::Choice;
-use crate::integrate::half_vectors::{HalfVectorNodes, half_vectors};
-use crate::integrate::light_directions::{LightDirectionNodes, light_directions};
-use crate::integrate::{ScaleBias, mirror};
+use crate::integrate::{Kernel, ScaleBias, mirror};
 use crate::numeric::lanes::{self, Real, Vector, vectorised};
 use crate::table::grid::Grid;
 use rayon::prelude::*;
@@ -63,17 +61,10 @@ pub trait Method: Sync {
     ) -> ScaleBias<R>;
 }
 
-impl Method for HalfVectorNodes {
+impl<K: Kernel> Method for K {
     #[inline(always)]
     fn texel<R: Real>(&self, _: &[HalfVector], lobe: Microfacet, mu: R, alpha: R) -> ScaleBias<R> {
-        half_vectors(lobe, Schlick, mu, alpha, self).0.into()
-    }
-}
-
-impl Method for LightDirectionNodes {
-    #[inline(always)]
-    fn texel<R: Real>(&self, _: &[HalfVector], lobe: Microfacet, mu: R, alpha: R) -> ScaleBias<R> {
-        light_directions(lobe, Schlick, mu, alpha, self).0.into()
+        self.integrate(lobe, Schlick, mu, alpha).0.into()
     }
 }
 

@@ -55,6 +55,7 @@ impl DoubleExponentialRule {
 }
 
 impl Kernel for DoubleExponentialNodes {
+    /// The integrals at n·v = `mu` in [0, 1] and `alpha` in (0, 1].
     #[inline(always)]
     fn integrate<const N: usize, B: Basis<N>, R: Real>(
         &self,
@@ -63,58 +64,49 @@ impl Kernel for DoubleExponentialNodes {
         mu: R,
         alpha: R,
     ) -> Integrals<N, R> {
-        double_exponential(lobe, basis, mu, alpha, self)
+        let zero = R::from(0.0);
+        let sv = (mu.complement() * (mu + 1.0)).sqrt();
+        let (low, high) = (mu / (sv + 1.0), sv / (mu + 1.0));
+        let width = lobe.ndf.width(alpha);
+        // Beyond the lobe's ends there is nothing to integrate.
+        let (first, last, centre, unit) = match lobe.ndf {
+            Ndf::Ggx => {
+                let end = width * ggx_end(mu, alpha);
+                (-low.min(end), high.min(end), zero, width)
+            }
+            Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong => {
+                let end = width * lobe.ndf.slope_end(alpha, TAIL_DEPTH);
+                (-low.min(end), high.min(end), zero, width)
+            }
+            Ndf::Charlie => {
+                let unit = alpha.sqrt();
+                (-low, high.min(unit * CHARLIE_END - low), -low, unit)
+            }
+        };
+        let area_v = lobe.masking_projected_area(mu, alpha);
+        let view = View { lobe, basis, mu, area_v, sv, alpha, width, low, high, centre, unit };
+        let inner = if lobe.ndf.definition().smooth_at_normal {
+            &self.inner
+        } else {
+            &self.inner_with_cusp
+        };
+        let mirror = zero.min(last);
+        // Without a break the two pieces meet at the mirror direction; with one, of the two inner
+        // ends one is the mirror direction and the other the break.
+        let (ends, pieces) = match lobe.break_at(alpha) {
+            None => ([first, mirror, last, last], 2),
+            Some(x) => {
+                let slope = (x - mu) / (sv + (x.complement() * (x + 1.0)).sqrt());
+                let at_break = slope.max(first).min(last);
+                ([first, at_break.min(mirror), at_break.max(mirror), last], 3)
+            }
+        };
+        let mut sum = Integrals::zero();
+        for ends in ends[..=pieces].windows(2) {
+            sum.add(R::from(1.0), view.piece(ends[0], ends[1], &self.outer, inner).0);
+        }
+        sum
     }
-}
-
-/// The integrals at n·v = `mu` in [0, 1] and `alpha` in (0, 1].
-#[inline(always)]
-pub fn double_exponential<const N: usize, B: Basis<N>, R: Real>(
-    lobe: Microfacet,
-    basis: B,
-    mu: R,
-    alpha: R,
-    nodes: &DoubleExponentialNodes,
-) -> Integrals<N, R> {
-    let zero = R::from(0.0);
-    let sv = (mu.complement() * (mu + 1.0)).sqrt();
-    let (low, high) = (mu / (sv + 1.0), sv / (mu + 1.0));
-    let width = lobe.ndf.width(alpha);
-    // Beyond the lobe's ends there is nothing to integrate.
-    let (first, last, centre, unit) = match lobe.ndf {
-        Ndf::Ggx => {
-            let end = width * ggx_end(mu, alpha);
-            (-low.min(end), high.min(end), zero, width)
-        }
-        Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong => {
-            let end = width * lobe.ndf.slope_end(alpha, TAIL_DEPTH);
-            (-low.min(end), high.min(end), zero, width)
-        }
-        Ndf::Charlie => {
-            let unit = alpha.sqrt();
-            (-low, high.min(unit * CHARLIE_END - low), -low, unit)
-        }
-    };
-    let area_v = lobe.masking_projected_area(mu, alpha);
-    let view = View { lobe, basis, mu, area_v, sv, alpha, width, low, high, centre, unit };
-    let inner =
-        if lobe.ndf.definition().smooth_at_normal { &nodes.inner } else { &nodes.inner_with_cusp };
-    let mirror = zero.min(last);
-    // Without a break the two pieces meet at the mirror direction; with one, of the two inner ends
-    // one is the mirror direction and the other the break.
-    let (ends, pieces) = match lobe.break_at(alpha) {
-        None => ([first, mirror, last, last], 2),
-        Some(x) => {
-            let slope = (x - mu) / (sv + (x.complement() * (x + 1.0)).sqrt());
-            let at_break = slope.max(first).min(last);
-            ([first, at_break.min(mirror), at_break.max(mirror), last], 3)
-        }
-    };
-    let mut sum = Integrals::zero();
-    for ends in ends[..=pieces].windows(2) {
-        sum.add(R::from(1.0), view.piece(ends[0], ends[1], &nodes.outer, inner).0);
-    }
-    sum
 }
 
 /// Charlie ends where n·l is 20 √α or more: (sin θ_h)^(1/α) is there below exp(-(n·l)²/(8α)) =

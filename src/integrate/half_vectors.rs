@@ -66,17 +66,22 @@ impl HalfVectorRule {
 
     /// The rule's nodes.
     pub fn nodes(&self) -> HalfVectorNodes {
-        let k = self.azimuth as f64;
-        let midpoint =
-            |j: usize| Node { at: libm::cos((j as f64 + 0.5) * PI / k), weight: 2.0 * PI / k };
         HalfVectorNodes {
             radial: gauss_legendre(self.radial),
-            azimuth: (0..self.azimuth).map(midpoint).collect(),
+            azimuth: midpoints(self.azimuth),
             radial_horizon: gauss_legendre(self.radial_horizon),
             azimuth_horizon: half_gauss(self.azimuth_horizon),
             power: self.power,
         }
     }
+}
+
+/// cos φ at the midpoints of (0, π), and their common weight in φ over the full circle.
+pub(super) fn midpoints(count: usize) -> Vec<Node> {
+    let k = count as f64;
+    let midpoint =
+        |j: usize| Node { at: libm::cos((j as f64 + 0.5) * PI / k), weight: 2.0 * PI / k };
+    (0..count).map(midpoint).collect()
 }
 
 impl Kernel for HalfVectorNodes {

@@ -26,7 +26,7 @@ use crate::brdf::fresnel::Basis;
 use crate::brdf::masking::approx_projected_area;
 use crate::brdf::{Masking, Microfacet, Ndf};
 use crate::numeric::lanes::Real;
-use crate::numeric::quadrature::gauss_legendre::{Node, gauss_legendre, half_gauss};
+use crate::numeric::quadrature::gauss_legendre::{Node, crowded, gauss_legendre, half_gauss};
 use crate::numeric::quadrature::slope_map::{MappedSlope, Power, slope_at, slope_interval};
 use std::f64::consts::PI;
 
@@ -85,13 +85,13 @@ impl LightDirectionRule {
             .collect();
         // Crowded at the horizon, n·l = 0, where the masking term has branch points at n·l =
         // ±iα/√(1-α²).
-        let crowd = |Node { at: v, weight }| Node { at: v * v, weight: weight * 2.0 * v };
-        let slope = gauss_legendre(self.slope).into_iter().map(crowd).collect();
+        let slope = crowded(gauss_legendre(self.slope));
         LightDirectionNodes { slope, azimuth, power: self.power }
     }
 }
 
 impl Kernel for LightDirectionNodes {
+    /// The integrals of a GGX lobe at n·v = `mu` in [0, 1] and `alpha` in (0, 1].
     #[inline(always)]
     fn integrate<const N: usize, B: Basis<N>, R: Real>(
         &self,
@@ -100,42 +100,31 @@ impl Kernel for LightDirectionNodes {
         mu: R,
         alpha: R,
     ) -> Integrals<N, R> {
-        light_directions(lobe, basis, mu, alpha, self)
+        // No other lobe need be compiled.
+        let lobe = Microfacet { ndf: Ndf::Ggx, ..lobe };
+        let sv = (mu.complement() * (mu + 1.0)).sqrt();
+        let view =
+            View { mu, sv, alpha, a2: alpha * alpha, b2: alpha.complement() * (alpha + 1.0) };
+        let area_v = lobe.masking_projected_area(mu, alpha);
+        // y at n·l = 0 and at n·l = 1.
+        let (first, last) = (-mu / ((sv + 1.0) * alpha), sv / ((mu + 1.0) * alpha));
+        let interval = slope_interval(first, last, self.power);
+        let layer = Layer::of(lobe, mu, alpha);
+        // E at F = 1, and the integrals of the weights: of the first one nothing, since it follows
+        // from E and the second.
+        let (mut e, mut sums) = (layer.e, Integrals::<N, R>::zero());
+        for node in &self.slope {
+            let MappedSlope { y, dy } = slope_at(node.at, interval, self.power);
+            let plane = view.plane(y);
+            let Plane { x, sl, f, .. } = plane;
+            let visible = lobe.cosine_visibility_at(x, mu, area_v, alpha);
+            let factor = dy * node.weight * 4.0 * sl / f * visible;
+            e = e + factor * (view.closed_azimuth(&plane) - layer.part);
+            sums.add(factor, view.azimuth(&plane, basis, &self.azimuth));
+        }
+        sums.0[0] = e - sums.0[1];
+        sums
     }
-}
-
-/// The integrals of a GGX lobe at n·v = `mu` in [0, 1] and `alpha` in (0, 1].
-#[inline(always)]
-pub fn light_directions<const N: usize, B: Basis<N>, R: Real>(
-    lobe: Microfacet,
-    basis: B,
-    mu: R,
-    alpha: R,
-    nodes: &LightDirectionNodes,
-) -> Integrals<N, R> {
-    // No other lobe need be compiled.
-    let lobe = Microfacet { ndf: Ndf::Ggx, ..lobe };
-    let sv = (mu.complement() * (mu + 1.0)).sqrt();
-    let view = View { mu, sv, alpha, a2: alpha * alpha, b2: alpha.complement() * (alpha + 1.0) };
-    let area_v = lobe.masking_projected_area(mu, alpha);
-    // y at n·l = 0 and at n·l = 1.
-    let (first, last) = (-mu / ((sv + 1.0) * alpha), sv / ((mu + 1.0) * alpha));
-    let interval = slope_interval(first, last, nodes.power);
-    let layer = Layer::of(lobe, mu, alpha);
-    // E at F = 1, and the integrals of the weights: of the first one nothing, since it follows from
-    // E and the second.
-    let (mut e, mut sums) = (layer.e, Integrals::<N, R>::zero());
-    for node in &nodes.slope {
-        let MappedSlope { y, dy } = slope_at(node.at, interval, nodes.power);
-        let plane = view.plane(y);
-        let Plane { x, sl, f, .. } = plane;
-        let visible = lobe.cosine_visibility_at(x, mu, area_v, alpha);
-        let factor = dy * node.weight * 4.0 * sl / f * visible;
-        e = e + factor * (view.closed_azimuth(&plane) - layer.part);
-        sums.add(factor, view.azimuth(&plane, basis, &nodes.azimuth));
-    }
-    sums.0[0] = e - sums.0[1];
-    sums
 }
 
 /// The quantities that are the same for all directions of light.

@@ -89,6 +89,7 @@ impl LightPlaneRule {
 }
 
 impl Kernel for LightPlaneNodes {
+    /// The integrals at n·v = `mu` in [0, 1] and `alpha` in (0, 1].
     #[inline(always)]
     fn integrate<const N: usize, B: Basis<N>, R: Real>(
         &self,
@@ -97,31 +98,19 @@ impl Kernel for LightPlaneNodes {
         mu: R,
         alpha: R,
     ) -> Integrals<N, R> {
-        light_planes(lobe, basis, mu, alpha, self)
+        let sv = (mu.complement() * (mu + 1.0)).sqrt();
+        let (low, high) = (mu / (sv + 1.0), sv / (mu + 1.0));
+        let end = alpha * lobe.ndf.slope_end(alpha, TAIL_DEPTH);
+        let (first, last) = (-low.min(end), high.min(end));
+        let area_v = lobe.masking_projected_area(mu, alpha);
+        let view = View { lobe, basis, mu, area_v, sv, alpha, low, high };
+        let Some(x) = lobe.break_at(alpha) else { return view.piece(first, last, self) };
+        let slope = (x - mu) / (sv + (x.complement() * (x + 1.0)).sqrt());
+        let jump = slope.max(first).min(last);
+        let mut sum = view.piece(first, jump, self);
+        sum.add(R::from(1.0), view.piece(jump, last, self).0);
+        sum
     }
-}
-
-/// The integrals at n·v = `mu` in [0, 1] and `alpha` in (0, 1].
-#[inline(always)]
-pub fn light_planes<const N: usize, B: Basis<N>, R: Real>(
-    lobe: Microfacet,
-    basis: B,
-    mu: R,
-    alpha: R,
-    nodes: &LightPlaneNodes,
-) -> Integrals<N, R> {
-    let sv = (mu.complement() * (mu + 1.0)).sqrt();
-    let (low, high) = (mu / (sv + 1.0), sv / (mu + 1.0));
-    let end = alpha * lobe.ndf.slope_end(alpha, TAIL_DEPTH);
-    let (first, last) = (-low.min(end), high.min(end));
-    let area_v = lobe.masking_projected_area(mu, alpha);
-    let view = View { lobe, basis, mu, area_v, sv, alpha, low, high };
-    let Some(x) = lobe.break_at(alpha) else { return view.piece(first, last, nodes) };
-    let slope = (x - mu) / (sv + (x.complement() * (x + 1.0)).sqrt());
-    let jump = slope.max(first).min(last);
-    let mut sum = view.piece(first, jump, nodes);
-    sum.add(R::from(1.0), view.piece(jump, last, nodes).0);
-    sum
 }
 
 struct View<B, R> {

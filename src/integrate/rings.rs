@@ -11,14 +11,13 @@
 //! of the first piece, where its nodes crowd, and so do those of the azimuth at its end, where n·l
 //! = 0: there the masking term has a layer.
 
-use super::half_vectors::{Ring, TAIL_DEPTH, View, cut_circle, full_circle};
+use super::half_vectors::{Ring, TAIL_DEPTH, View, cut_circle, full_circle, midpoints};
 use super::{Integrals, Kernel};
 use crate::brdf::fresnel::Basis;
 use crate::brdf::{Microfacet, Ndf};
 use crate::numeric::lanes::Real;
-use crate::numeric::quadrature::gauss_legendre::{Node, gauss_legendre};
+use crate::numeric::quadrature::gauss_legendre::{Node, crowded, gauss_legendre};
 use crate::numeric::special::exponential;
-use std::f64::consts::PI;
 
 /// Numbers of nodes: `radial` × `azimuth` where the horizon cuts the circle of half vectors,
 /// `radial_full` × `azimuth_full` where it does not.
@@ -55,9 +54,6 @@ impl RingRule {
 
     /// The rule's nodes.
     pub fn nodes(&self) -> RingNodes {
-        let k = self.azimuth_full as f64;
-        let midpoint =
-            |j: usize| Node { at: libm::cos((j as f64 + 0.5) * PI / k), weight: 2.0 * PI / k };
         // u² twice: the layer at the horizon is a logarithm at n·v = 0.
         let radial = crowded(crowded(gauss_legendre(self.radial)));
         let mirrored = |node: Node| Node { at: 1.0 - node.at, ..node };
@@ -65,18 +61,13 @@ impl RingRule {
             radial,
             azimuth: crowded(gauss_legendre(self.azimuth)).into_iter().map(mirrored).collect(),
             radial_full: crowded(gauss_legendre(self.radial_full)),
-            azimuth_full: (0..self.azimuth_full).map(midpoint).collect(),
+            azimuth_full: midpoints(self.azimuth_full),
         }
     }
 }
 
-/// Nodes for the same integral after u → u².
-fn crowded(nodes: Vec<Node>) -> Vec<Node> {
-    let crowd = |Node { at, weight }| Node { at: at * at, weight: 2.0 * at * weight };
-    nodes.into_iter().map(crowd).collect()
-}
-
 impl Kernel for RingNodes {
+    /// The integrals at n·v = `mu` in [0, 1] and `alpha` in (0, 1].
     #[inline(always)]
     fn integrate<const N: usize, B: Basis<N>, R: Real>(
         &self,
@@ -85,50 +76,38 @@ impl Kernel for RingNodes {
         mu: R,
         alpha: R,
     ) -> Integrals<N, R> {
-        rings(lobe, basis, mu, alpha, self)
+        // No other lobe need be compiled.
+        let lobe = Microfacet { ndf: Ndf::Charlie, ..lobe };
+        let (zero, one) = (R::from(0.0), R::from(1.0));
+        let sv = (mu.complement() * (mu + 1.0)).sqrt();
+        // sin(ε/2) and cos(ε/2); the former by μ, since 1 - sv cancels.
+        let large = ((sv + 1.0) * 0.5).sqrt();
+        let small = mu / (large * 2.0);
+        let (first, full) = (small / (large + 1.0), large / (small + 1.0));
+        // (cos β)^(1/α) falls to exp(-TAIL_DEPTH) of what it is at the start.
+        let rest2 = large * large * exponential(alpha * (-2.0 * TAIL_DEPTH));
+        let end = ((rest2.complement().max(zero)).sqrt() / (rest2.sqrt() + 1.0)).min(one);
+        let lobe = Lobe { lobe, view: View::new(lobe, basis, mu, alpha), mu, sv, alpha };
+        let (cut_end, full_end) = (full.min(end), end.max(full));
+        let (mut cut, mut whole) = (Integrals::zero(), Integrals::zero());
+        let (length, full_length) = (cut_end - first, full_end - full);
+        for node in &self.radial {
+            let q = first + length * node.at;
+            let (ring, weight) = lobe.ring(q, q.complement());
+            let part = cut_circle(lobe.view, ring, &self.azimuth);
+            cut.add(weight * length * node.weight, part.0);
+        }
+        for node in &self.radial_full {
+            // 1 - q, which is what D depends on at the normal.
+            let rest = full_end.complement() + full_length * node.at;
+            let (ring, weight) = lobe.ring(rest.complement(), rest);
+            let part = full_circle(lobe.view, ring, &self.azimuth_full);
+            whole.add(weight * full_length * node.weight, part.0);
+        }
+        let mut sum = cut.where_positive(sv).where_positive(length);
+        sum.add(one, whole.where_positive(mu).where_positive(full_length).0);
+        sum
     }
-}
-
-/// The integrals at n·v = `mu` in [0, 1] and `alpha` in (0, 1].
-#[inline(always)]
-pub fn rings<const N: usize, B: Basis<N>, R: Real>(
-    lobe: Microfacet,
-    basis: B,
-    mu: R,
-    alpha: R,
-    nodes: &RingNodes,
-) -> Integrals<N, R> {
-    // No other lobe need be compiled.
-    let lobe = Microfacet { ndf: Ndf::Charlie, ..lobe };
-    let (zero, one) = (R::from(0.0), R::from(1.0));
-    let sv = (mu.complement() * (mu + 1.0)).sqrt();
-    // sin(ε/2) and cos(ε/2); the former by μ, since 1 - sv cancels.
-    let large = ((sv + 1.0) * 0.5).sqrt();
-    let small = mu / (large * 2.0);
-    let (first, full) = (small / (large + 1.0), large / (small + 1.0));
-    // (cos β)^(1/α) falls to exp(-TAIL_DEPTH) of what it is at the start.
-    let rest2 = large * large * exponential(alpha * (-2.0 * TAIL_DEPTH));
-    let end = ((rest2.complement().max(zero)).sqrt() / (rest2.sqrt() + 1.0)).min(one);
-    let lobe = Lobe { lobe, view: View::new(lobe, basis, mu, alpha), mu, sv, alpha };
-    let (cut_end, full_end) = (full.min(end), end.max(full));
-    let (mut cut, mut whole) = (Integrals::zero(), Integrals::zero());
-    let (length, full_length) = (cut_end - first, full_end - full);
-    for node in &nodes.radial {
-        let q = first + length * node.at;
-        let (ring, weight) = lobe.ring(q, q.complement());
-        let part = cut_circle(lobe.view, ring, &nodes.azimuth);
-        cut.add(weight * length * node.weight, part.0);
-    }
-    for node in &nodes.radial_full {
-        // 1 - q, which is what D depends on at the normal.
-        let rest = full_end.complement() + full_length * node.at;
-        let (ring, weight) = lobe.ring(rest.complement(), rest);
-        let part = full_circle(lobe.view, ring, &nodes.azimuth_full);
-        whole.add(weight * full_length * node.weight, part.0);
-    }
-    let mut sum = cut.where_positive(sv).where_positive(length);
-    sum.add(one, whole.where_positive(mu).where_positive(full_length).0);
-    sum
 }
 
 #[derive(Clone, Copy)]

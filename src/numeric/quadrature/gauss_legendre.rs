@@ -48,6 +48,12 @@ pub fn half_gauss(n: usize) -> Vec<Node> {
         .collect()
 }
 
+/// Nodes for the same integral after u → u²: crowded at 0.
+pub fn crowded(nodes: Vec<Node>) -> Vec<Node> {
+    let crowd = |Node { at, weight }| Node { at: at * at, weight: 2.0 * at * weight };
+    nodes.into_iter().map(crowd).collect()
+}
+
 /// P_n(x) and P_n'(x) by the three-term recurrence (Abramowitz and Stegun, 22.7.10 and 22.8.5).
 fn legendre(n: usize, x: f64) -> (f64, f64) {
     let (mut previous, mut p) = (0.0, 1.0);
