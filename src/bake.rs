@@ -44,8 +44,8 @@ pub struct Baked {
     pub reports: Vec<Report>,
 }
 
-/// Texels of a band: enough to fill any number of cores, and 128 MiB of numbers at the most.
-const BAND: usize = 1 << 20;
+/// Texels of a band: enough to fill any number of cores, and 32 MiB of numbers at the most.
+const BAND: usize = 1 << 18;
 
 /// Bakes a table. It has passed its checks when it comes back: see [`crate::certify`].
 ///

@@ -9,6 +9,7 @@ use crate::integrate::rules::{CLOSED_FORM, D10240, G904, G4536, L4608, P1024, R2
 use crate::table::claim::{Stage, StageError};
 use crate::table::grid::Grid;
 use crate::table::precision::Precision;
+use rayon::prelude::*;
 
 /// The most values of a lobe, in all slices, that are rounded correctly to f32, whose steps are as
 /// fine as the fast stages' bounds: each takes the 24,000 evaluations of the reference, all of them
@@ -63,7 +64,7 @@ impl Stages {
             Integrand::Glass(_) => values <= LARGEST_F32_OF_GLASS,
         };
         Stages {
-            bakers: rules.iter().map(|rule| Baker::new(integrand, rule)).collect(),
+            bakers: rules.par_iter().map(|rule| Baker::new(integrand, rule)).collect(),
             rounds_correctly: task.precision.is_rounded_once()
                 || task.precision == Precision::F32 && few,
         }

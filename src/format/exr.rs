@@ -21,6 +21,9 @@ const ENCODING: Encoding = Encoding {
     line_order: LineOrder::Increasing,
 };
 
+/// So many bytes of values are compressed sooner than threads start for them.
+const FEW_BYTES: usize = 1 << 18;
+
 /// Writes an EXR file; slices are as many parts, named for their parameter. Lines are read from the
 /// table as they are compressed: no second copy of the values is made.
 pub fn write(texels: &Texels, file: &mut dyn WriteSeek) -> Result<()> {
@@ -43,9 +46,11 @@ pub fn write(texels: &Texels, file: &mut dyn WriteSeek) -> Result<()> {
             let image = Image::from_layers(ImageAttributes::new(size), layers);
             let writer = image.write();
             // The crate has threads of its own: none beside the only one that there is to be.
-            let written = match rayon::current_num_threads() {
-                1 => writer.non_parallel().to_buffered(file),
-                _ => writer.to_buffered(file),
+            let bytes = texels.size().iter().product::<usize>() * texels.bytes();
+            let alone = rayon::current_num_threads() == 1 || bytes <= FEW_BYTES;
+            let written = match alone {
+                true => writer.non_parallel().to_buffered(file),
+                false => writer.to_buffered(file),
             };
             written.map_err(refused)
         }};
