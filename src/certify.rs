@@ -3,6 +3,7 @@
 //! the CPU, any against the reference ([`deviation`]).
 
 mod decider;
+mod halves;
 pub mod decision;
 pub mod deviation;
 pub mod stages;

@@ -134,11 +134,14 @@ pub fn mirror<const N: usize, B: Basis<N>>(lobe: Microfacet, basis: B, mu: f64) 
     basis.of_mirror(mu).map(|weight| lobe.smooth_limit(Ball::exact(mu)) * weight)
 }
 
-/// The scale of errors at a point: the albedo there if it exceeds 1, else 1.
-#[inline]
-pub fn scale(integrals: &[f64]) -> f64 {
+/// The scale of errors at a point, or at as many as R has lanes: the albedo there if it exceeds 1,
+/// else 1.
+#[inline(always)]
+pub fn scale<R: Real>(integrals: &[R]) -> R {
     // The first two weights add up to F = 1: see Basis.
-    integrals.iter().take(2).sum::<f64>().max(1.0)
+    let albedo = integrals.iter().take(2).fold(R::from(0.0), |sum, &integral| sum + integral);
+    // 1 where it is no number.
+    R::from(1.0).max(albedo)
 }
 
 /// The integrals of the weights at one point, or at as many as R has lanes.

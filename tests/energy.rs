@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Integrator, average_in_two_pieces, domain_of, figures, ggx, lobe_of, number};
+use common::{Integrator, average_in_pieces, domain_of, figures, ggx, lobe_of, number};
 use rayon::prelude::*;
 use splitsum::brdf::{Masking, Microfacet, Ndf};
 use splitsum::integrate::ScaleBias;
@@ -127,7 +127,7 @@ fn average_albedos_are_those_of_the_figures() {
     figures(AVERAGE).par_iter().for_each(|row| {
         let (lobe, r) = (lobe_of(row), number(row[2]));
         let middle = lobe.break_at(r * r).unwrap_or(r * r).min(0.9);
-        let average = average_in_two_pieces(lobe, r * r, middle);
+        let average = average_in_pieces(lobe, r * r, &[middle]);
         let (b, e) = (average.b, average.e());
         assert!(
             (b - number(row[3])).abs() < 1e-10 && (e - number(row[4])).abs() < 1e-10,

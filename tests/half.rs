@@ -1,6 +1,6 @@
 //! Binary16: every half, every boundary between two halves.
 
-use splitsum::numeric::half::{LARGEST, round, value};
+use splitsum::numeric::half::{LARGEST, nearest_to_all, round, value};
 
 /// The halves from 0 up to the largest finite one.
 fn halves() -> impl Iterator<Item = u16> {
@@ -29,6 +29,25 @@ fn every_boundary_rounds_to_even_and_its_neighbours_to_theirs() {
         assert_eq!(round(middle), even);
         assert_eq!(round(f64::from_bits(middle.to_bits() - 1)), bits);
         assert_eq!(round(f64::from_bits(middle.to_bits() + 1)), bits + 1);
+    }
+}
+
+#[test]
+fn what_may_lie_on_either_side_of_a_boundary_is_in_doubt() {
+    // From 1.5 times the smallest normal half, below which all is in doubt.
+    for bits in 0x0600..0x7bff {
+        let (half, next) = (value(bits), value(bits + 1));
+        let (middle, unit) = (0.5 * (half + next), f64::EPSILON * next);
+        let inside = (middle - half) - 4.0 * unit;
+        assert_eq!(nearest_to_all(half + 0.5 * inside, 0.5 * inside - 4.0 * unit), half);
+        assert_eq!(nearest_to_all(middle + 0.25 * inside, 0.25 * inside - 4.0 * unit), next);
+        for doubt in [middle - half, next - half, f64::INFINITY, f64::NAN] {
+            assert!(nearest_to_all(half, doubt).is_nan() && nearest_to_all(next, doubt).is_nan());
+        }
+        assert!(nearest_to_all(middle, 0.0).is_nan());
+    }
+    for beyond in [0.0, -1.0, 2f64.powi(-15), LARGEST, f64::INFINITY, f64::NAN] {
+        assert!(nearest_to_all(beyond, 0.0).is_nan(), "{beyond}");
     }
 }
 

@@ -19,7 +19,7 @@ fn main() {
     let tools = there("setpriv") && there("prlimit");
     let mut trials = vec![
         Trial::test("whatever the limit of addresses, a bake is refused or done", refused_or_done),
-        Trial::test("a bake takes the table's bytes and at most 256 MiB", a_table_and_little_more),
+        Trial::test("a bake takes the table's bytes and at most 64 MiB", a_table_and_little_more),
         Trial::test("a table too large for memory is refused before any work", refused_before_work),
     ];
     let name = "refused threads are no fault of the program";
@@ -72,11 +72,11 @@ fn refused_or_done() -> Result<(), Failed> {
     Ok(())
 }
 
-/// 4096 x 4096 halves are 64 MiB. With 256 MiB more, and 32 MiB of the program's own addresses,
+/// 4096 x 4096 halves are 64 MiB. With 64 MiB more, and 32 MiB of the program's own addresses,
 /// they are baked.
 fn a_table_and_little_more() -> Result<(), Failed> {
     let folder = tempfile::tempdir()?;
-    let limit = format!("ulimit -v {}", (64 + 256 + 32) << 10);
+    let limit = format!("ulimit -v {}", (64 + 64 + 32) << 10);
     let output = limited(folder.path(), &limit, "bake --size 4096 --threads 1 -q -o a.exr")?;
     if !output.status.success() {
         return Err(String::from_utf8_lossy(&output.stderr).into_owned().into());

@@ -8,7 +8,7 @@ use crate::brdf::fresnel::with_basis;
 use crate::brdf::{Fresnel, Microfacet};
 use crate::certify::deviation::{self, Deviation};
 use crate::error::{Error, Result};
-use crate::integrate::average::{average_error, average_nodes, averages, averages_by_row};
+use crate::integrate::average::{AVERAGE_ERROR, average_nodes, averages, averages_by_row};
 use crate::integrate::errors::f32_arithmetic;
 use crate::integrate::estimator::Estimator;
 use crate::integrate::hammersley::{Point, estimate};
@@ -62,27 +62,28 @@ impl Integration<'_> {
     /// The averages of each row of a grid that these integrands have.
     pub fn averages(&mut self, grid: &Grid, averaged: &[Integrand]) -> Result<Vec<Vec<Ball>>> {
         if averages_by_row(self.integrand) {
-            return Ok(self.averages_of_interfaces(grid, averaged));
+            return Ok(self.averages_by_cpu(grid, averaged));
         }
         let nodes = average_nodes();
         let directions = grid.at_directions(nodes.iter().map(|node| node.0).collect());
         let averages = averages(&nodes, &self.over(&directions, &|_| ())?);
-        let error = average_error(self.integrand);
-        let row = |(average, &alpha): (&[f64], &f64)| self.within_bound(alpha, average, error);
+        let row =
+            |(average, &alpha): (&[f64], &f64)| self.within_bound(alpha, average, AVERAGE_ERROR);
         Ok(averages.iter().zip(&grid.alphas).map(row).collect())
     }
 
-    /// The same of interfaces, whose directions vary with roughness: by the CPU.
-    fn averages_of_interfaces(&self, grid: &Grid, averaged: &[Integrand]) -> Vec<Vec<Ball>> {
+    /// The same where directions vary with roughness: by the CPU.
+    fn averages_by_cpu(&self, grid: &Grid, averaged: &[Integrand]) -> Vec<Vec<Ball>> {
         let mut averages = vec![Vec::new(); grid.alphas.len()];
         for &integrand in averaged {
             let rule = self.baker.rule;
-            let (errors, more) = (rule.errors(integrand), average_error(integrand));
+            let errors = rule.errors(integrand);
             let values = Baker::new(integrand, &rule).averages(&grid.alphas);
             for ((row, values), &alpha) in averages.iter_mut().zip(values.iter()).zip(&grid.alphas)
             {
                 let errors = errors.at(alpha, values);
-                let ball = |(&value, error): (&f64, f64)| Ball { value, error: error + more };
+                let ball =
+                    |(&value, error): (&f64, f64)| Ball { value, error: error + AVERAGE_ERROR };
                 row.extend(values.iter().zip(errors).map(ball));
             }
         }

@@ -5,7 +5,7 @@ use super::{BAND, task};
 use crate::backend::{Backend, Chosen, Gpu};
 use crate::certify::stages;
 use crate::error::{Complaint, Error, Result};
-use crate::integrate::average::average_nodes;
+use crate::integrate::average::DIRECTIONS;
 use crate::integrate::rule::{Method, Rule};
 use crate::lut::Part;
 use crate::request::{Accuracy, Request};
@@ -191,7 +191,7 @@ fn seconds_of_first(request: &Request, part: &Part, rules: &[Rule]) -> f64 {
 /// Points of a slice at which a rule integrates: its texels, and the directions of its averages.
 pub(super) fn points(request: &Request, part: &Part) -> usize {
     let grid = request.grid();
-    let directions = part.averaged().len() * average_nodes().len();
+    let directions = part.averaged().len() * DIRECTIONS;
     grid.len() + grid.alphas.len() * directions
 }
 

@@ -1,12 +1,15 @@
 //! A stage at work on texels: the texels that it decides, and the largest error of the others.
 
 use super::decision::{Averages, Task};
+use super::halves::Halves;
 use crate::brdf::fresnel::{MOST_WEIGHTS, with_basis};
 use crate::brdf::interface::Interface;
 use crate::brdf::{Fresnel, Microfacet};
 use crate::integrate::errors::{Errors, RowErrors};
 use crate::integrate::{Integrand, mirror};
 use crate::numeric::ball::Ball;
+use crate::numeric::lanes::vectorised;
+use crate::table::precision::Precision;
 
 /// The multiple of the last rule's error before the reference that earlier stages add to their own:
 /// their values and its own may err in opposite directions, and a thousandth more, since its
@@ -35,8 +38,8 @@ pub(super) struct Decider<'a> {
     pub averages: &'a Averages,
     /// The bounds of the stage's errors.
     pub errors: Errors,
-    /// [`MARGIN`] times these errors are added.
-    pub margin: Option<Errors>,
+    /// [`MARGIN`] times the errors of the first of these that has a bound are added.
+    pub margins: Vec<Errors>,
     /// Whether mirrors are computed in f64, and err by no more than its arithmetic.
     pub exact_mirrors: bool,
     pub rounds_correctly: bool,
@@ -59,6 +62,11 @@ struct Row<'a> {
     averages: &'a [Ball],
 }
 
+/// The bounds at an α of the first of these that has a bound there.
+pub(super) fn row_with_bound(margins: &[Errors], alpha: f64) -> Option<RowErrors> {
+    margins.iter().map(|margin| margin.row(alpha)).find(RowErrors::is_bounded)
+}
+
 impl Decider<'_> {
     fn row(&self, row: usize) -> Row<'_> {
         let alpha = self.task.grid.alphas[row];
@@ -69,7 +77,7 @@ impl Decider<'_> {
             Integrand::Glass(interface) => Some(Known::Points(interface, alpha)),
             Integrand::Specular(..) | Integrand::Diffuse(_) => None,
         };
-        let margin = self.margin.map(|margin| margin.row(alpha));
+        let margin = row_with_bound(&self.margins, alpha);
         Row { known, errors: self.errors.row(alpha), margin, averages: self.averages.row(row) }
     }
 
@@ -111,6 +119,16 @@ impl Decider<'_> {
         let channels = values.len() / open.len();
         let row = self.row(row);
         let (integrals, _) = integrals.as_chunks::<N>();
+        let mut halves = 0;
+        if self.rounds_to_halves(&row) && open.iter().all(|&open| open) {
+            let (values, _) = values.as_chunks_mut::<N>();
+            let (errors, margin) = (&row.errors, row.margin.as_ref());
+            vectorised(Halves { errors, margin, integrals, values });
+            for (open, values) in open.iter_mut().zip(values) {
+                *open = values.iter().any(|value| value.is_nan());
+                halves += usize::from(!*open);
+            }
+        }
         let texels = values.chunks_exact_mut(channels).zip(open).zip(integrals).enumerate();
         let mut verdict = Verdict::default();
         for (column, ((values, open), integrals)) in texels {
@@ -118,7 +136,14 @@ impl Decider<'_> {
                 verdict = verdict.merge(self.texel_of(&row, column, integrals, values, open));
             }
         }
-        verdict
+        Verdict { decided: verdict.decided + halves, ..verdict }
+    }
+
+    /// Whether [`Halves`] decides nearly all texels of a row.
+    fn rounds_to_halves(&self, row: &Row) -> bool {
+        let task = self.task;
+        let halves = self.rounds_correctly && task.precision == Precision::F16;
+        halves && task.lut.is_integrals() && row.known.is_none() && !row.errors.on_device()
     }
 
     #[inline(always)]

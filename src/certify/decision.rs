@@ -2,6 +2,7 @@
 //! whether two stages agree.
 
 use crate::integrate::Field;
+use crate::integrate::average::DIRECTIONS;
 use crate::lut::Part;
 use crate::numeric::ball::Ball;
 use crate::table::grid::Grid;
@@ -24,6 +25,13 @@ pub struct Task<'a> {
 }
 
 impl Task<'_> {
+    /// The number of points to integrate at, those of averages included.
+    pub fn points(&self) -> usize {
+        let rows = self.grid.alphas.len();
+        let texels = if self.lut.depends_on_nov() { self.grid.len() } else { rows };
+        texels + rows * self.lut.averaged().len() * DIRECTIONS
+    }
+
     /// Fills in the stored `values` of a texel at n·v = `mu`, from its integrals and its row's
     /// averages. Returns whether they are beyond doubt, which is whether both ends of every ball
     /// round to the same, and the largest error of any of them before it is rounded: of values

@@ -19,6 +19,9 @@ pub const LARGEST_F32: usize = 4096;
 /// The same of glass, whose reference takes some ten times as long.
 pub const LARGEST_F32_OF_GLASS: usize = 512;
 
+/// An α of smooth rows, where Charlie's rules are as sharp as on others, and one of rough rows.
+const SOME_ALPHAS: [f64; 2] = [0.1, 1.0];
+
 /// The stages of the CPU, ready for any part of a table.
 #[derive(Clone, Debug)]
 pub struct Stages {
@@ -30,18 +33,18 @@ pub struct Stages {
 /// The rules of the CPU's stages, each finer than the one before.
 pub fn rules(task: &Task) -> Vec<Rule> {
     let integrand = task.lut.integrand();
-    let texels = task.grid.len();
+    let texels = task.points();
     let first = match task.precision {
         precision if precision.is_rounded_once() => Rule::for_rounding(integrand, texels),
         _ => Rule::for_cpu(integrand, task.tolerance, texels),
     };
-    // At a roughness where Charlie's rules are as sharp as any lobe's, and Blinn-Phong's own have
-    // no bound: what is left of it goes to d10240.
-    let error = |rule: &Rule| rule.bound_at(integrand, 1.0);
+    // On smooth rows and on rough ones: Blinn-Phong's own rules have no bound on the latter.
+    let errors = |rule: &Rule| SOME_ALPHAS.map(|alpha| rule.bound_at(integrand, alpha));
     let mut rules: Vec<Rule> = first.into_iter().collect();
     let finer = [G904, G4536, L4608, P1024, R2552, D10240, REFERENCE, CLOSED_FORM];
     for rule in finer.into_iter().filter(|rule| rule.applies_to(integrand)) {
-        if rules.last().is_none_or(|last| error(&rule) < error(last)) {
+        let is_finer = |i: usize| rules.iter().all(|other| errors(&rule)[i] < errors(other)[i]);
+        if (0..SOME_ALPHAS.len()).any(is_finer) {
             rules.push(rule);
         }
     }
@@ -70,12 +73,17 @@ impl Stages {
         }
     }
 
-    /// The last rule before the reference. Earlier stages widen the bounds of integrals and of
-    /// averages by twice this rule's error. Whatever they decide, this rule would decide too; hence
-    /// the set of texels that reaches the reference is independent of which stages ran.
-    pub(super) fn margin(&self) -> Option<Rule> {
-        let last = self.bakers.len().checked_sub(2).filter(|_| self.rounds_correctly);
-        last.map(|i| self.bakers[i].rule)
+    /// The rules between a stage, none of a device, and the reference, the finest first. A stage
+    /// widens its bounds of integrals and of averages by twice the error of the first of them that
+    /// has a bound at an α. Whatever it decides, that rule would decide too; hence the set of
+    /// texels that reaches the reference is independent of which stages ran.
+    pub(super) fn margins(&self, stage: Option<usize>) -> Vec<Rule> {
+        let before_reference = match self.rounds_correctly {
+            true => self.bakers.len().saturating_sub(1),
+            false => 0,
+        };
+        let first = stage.map_or(0, |stage| stage + 1).min(before_reference);
+        self.bakers[first..before_reference].iter().rev().map(|baker| baker.rule).collect()
     }
 
     /// Whether the stage interpolates: cheap enough to check a device at every texel.

@@ -7,7 +7,7 @@
 //! The stages check each other. If two differ by more than the sum of their error bounds, a device
 //! or a bound is at fault: the table is thrown away, not mended.
 
-use super::decider::{Decider, MARGIN, Verdict};
+use super::decider::{Decider, MARGIN, Verdict, row_with_bound};
 use super::decision::{Averages, Seen, Task, check_apart};
 use super::deviation::{check_range, sample, scatter};
 use super::stages::{Stages, summary};
@@ -15,7 +15,7 @@ use super::tally::Tally;
 use crate::backend::Progress;
 use crate::backend::cpu::Baker;
 use crate::error::{Error, Result};
-use crate::integrate::average::average_error;
+use crate::integrate::average::AVERAGE_ERROR;
 use crate::integrate::errors::Errors;
 use crate::integrate::rule::Rule;
 use crate::integrate::{Field, Integrand};
@@ -46,8 +46,26 @@ pub fn certify(task: &Task, device: Option<DeviceTable>, progress: Progress) -> 
     certify_band(task, &Stages::of(task), device, progress)
 }
 
-/// Certifies the texels of a band of a table through the stages of the whole.
+/// Certifies the texels of a band of a table through the stages of the whole. Where the texels of a
+/// row are alike, one stands for all of them, unless a device has computed them.
 pub fn certify_band(
+    task: &Task,
+    stages: &Stages,
+    device: Option<DeviceTable>,
+    progress: Progress,
+) -> Result<Certified> {
+    if device.is_some() || task.lut.depends_on_nov() {
+        return certify_all(task, stages, device, progress);
+    }
+    let width = task.grid.mus.len();
+    let column = task.grid.at_directions(task.grid.mus[..1].to_vec());
+    let progress = |rows: usize| progress(rows * width);
+    let (values, tally) = certify_all(&Task { grid: &column, ..*task }, stages, None, &progress)?;
+    let rows = values.chunks(task.lut.count());
+    Ok((rows.flat_map(|row| row.repeat(width)).collect(), tally.times(width)))
+}
+
+fn certify_all(
     task: &Task,
     stages: &Stages,
     device: Option<DeviceTable>,
@@ -62,7 +80,7 @@ pub fn certify_band(
         channels,
         values: vec![0.0; texels * channels],
         open: vec![true; texels],
-        last: None,
+        seen: Vec::new(),
         tally: Tally { texels, ..Tally::default() },
     };
     run.decide_by_device()?;
@@ -85,8 +103,8 @@ struct Run<'a> {
     values: Vec<f64>,
     /// Whether each texel is not decided.
     open: Vec<bool>,
-    /// The previous stage of the CPU.
-    last: Option<(Rule, Seen)>,
+    /// The stages of the CPU so far.
+    seen: Vec<(Rule, Seen)>,
     tally: Tally,
 }
 
@@ -100,14 +118,14 @@ impl Run<'_> {
         let Some(DeviceTable { integrals, rule, name }) = self.device else { return Ok(()) };
         let integrand = self.integrand();
         check_range(integrand, self.task.grid, rule, integrals)?;
-        let margin = self.stages.margin();
+        let margins = self.stages.margins(None);
         let rows: Vec<usize> = (0..self.task.grid.alphas.len()).collect();
-        let averages = self.averages(&self.stages.bakers[0], &rows, margin)?;
+        let averages = self.averages(&self.stages.bakers[0], &rows, &margins)?;
         let decider = Decider {
             task: self.task,
             averages: &averages,
             errors: rule.device_errors(integrand),
-            margin: margin.map(|margin| margin.errors(integrand)),
+            margins: margins.iter().map(|margin| margin.errors(integrand)).collect(),
             exact_mirrors: false,
             rounds_correctly: self.stages.rounds_correctly,
         };
@@ -123,14 +141,13 @@ impl Run<'_> {
         let (integrand, baker) = (self.integrand(), &self.stages.bakers[index]);
         let seen = self.integrate(index, progress);
         self.compare(&seen, &baker.rule)?;
-        let finer = self.stages.bakers.len() - 1 - index;
-        let margin = self.stages.margin().filter(|_| finer > 1);
-        let averages = self.averages(baker, &self.rows_of(&seen), margin)?;
+        let margins = self.stages.margins(Some(index));
+        let averages = self.averages(baker, &self.open_rows(), &margins)?;
         let decider = Decider {
             task: self.task,
             averages: &averages,
             errors: baker.rule.errors(integrand),
-            margin: margin.map(|margin| margin.errors(integrand)),
+            margins: margins.iter().map(|margin| margin.errors(integrand)).collect(),
             exact_mirrors: true,
             rounds_correctly: self.stages.rounds_correctly,
         };
@@ -151,7 +168,7 @@ impl Run<'_> {
             self.tally.smallest_distance = self.smallest_distance(&seen, &averages, &before);
         }
         self.note(format!("CPU f64, {}", baker.rule.name), &decider.errors, asked, verdict);
-        self.last = Some((baker.rule, seen));
+        self.seen.push((baker.rule, seen));
         Ok(())
     }
 
@@ -167,17 +184,28 @@ impl Run<'_> {
         Seen { texels: Some(texels), integrals }
     }
 
-    /// The texels that are not decided, and a few that are.
+    /// The texels that are not decided, and a few that are, where the stage has a bound.
     fn asked(&self, index: usize) -> Vec<usize> {
+        let (grid, integrand) = (self.task.grid, self.integrand());
+        let rule = |stage: usize| &self.stages.bakers[stage].rule;
+        let is_bounded = |stage: usize, texel: usize| {
+            rule(stage).bound_at(integrand, grid.point(texel).1).is_finite()
+        };
         let mut asked: Vec<usize> =
             (0..self.open.len()).filter(|&texel| self.open[texel]).collect();
-        match &self.last {
-            None => asked.extend(sample(self.task.grid)),
-            Some((_, seen)) if index == 1 => {
-                asked.extend((0..AUDITED).map(|i| seen.texel(scatter(i) % seen.len())));
+        match self.seen.first() {
+            None => asked.extend(sample(grid)),
+            Some((_, seen)) => {
+                // Each audited texel passes through the first stage after that has a bound for it.
+                let audited = (0..AUDITED).map(|i| seen.texel(scatter(i) % seen.len()));
+                asked.extend(
+                    audited.filter(|&texel| (1..index).all(|stage| !is_bounded(stage, texel))),
+                );
             }
-            Some(_) => (),
         }
+        // The last stage is asked for whatever is left.
+        let is_last = index + 1 == self.stages.bakers.len();
+        asked.retain(|&texel| is_last || is_bounded(index, texel));
         asked.sort_unstable();
         asked.dedup();
         asked
@@ -213,8 +241,13 @@ impl Run<'_> {
         let integrand = self.integrand();
         let ours = rule.errors(integrand);
         let device = self.device.map(|device| (device, device.rule.device_errors(integrand)));
-        let last = self.last.as_ref().map(|(rule, seen)| (rule, seen, rule.errors(integrand)));
-        if device.is_none() && last.is_none() {
+        let earlier: Vec<_> = self
+            .seen
+            .iter()
+            .rev()
+            .map(|(rule, seen)| (rule, seen, rule.errors(integrand)))
+            .collect();
+        if device.is_none() && earlier.is_empty() {
             return Ok(());
         }
         let compare = |place: usize| {
@@ -230,9 +263,11 @@ impl Run<'_> {
                 check_apart(theirs, integrals, &errors.at(alpha, integrals), &our_errors)
                     .map_err(|apart| failed(device.name, apart, cure))?;
             }
-            if let Some((last, seen, errors)) = &last
-                && let Some(theirs) = seen.of(texel)
-            {
+            // The last stage that has seen it.
+            let last = earlier
+                .iter()
+                .find_map(|(rule, seen, errors)| Some((rule, seen.of(texel)?, errors)));
+            if let Some((last, theirs, errors)) = last {
                 let rules = format!("rule {} beside {}", last.name, rule.name);
                 check_apart(theirs, integrals, &errors.at(alpha, theirs), &our_errors)
                     .map_err(|apart| failed(&rules, apart, "please report this"))?;
@@ -242,16 +277,14 @@ impl Run<'_> {
         (0..seen.len()).into_par_iter().try_for_each(compare)
     }
 
-    /// The rows of the texels that a stage has seen.
-    fn rows_of(&self, seen: &Seen) -> Vec<usize> {
-        let mut rows: Vec<usize> =
-            (0..seen.len()).map(|place| seen.texel(place) / self.task.grid.mus.len()).collect();
-        rows.dedup();
-        rows
+    /// The rows that have texels to decide.
+    fn open_rows(&self) -> Vec<usize> {
+        let rows = self.open.chunks(self.task.grid.mus.len()).enumerate();
+        rows.filter(|(_, open)| open.contains(&true)).map(|(row, _)| row).collect()
     }
 
     /// The averages of rows by a rule with the bounds of their errors; none where none are needed.
-    fn averages(&self, baker: &Baker, rows: &[usize], margin: Option<Rule>) -> Result<Averages> {
+    fn averages(&self, baker: &Baker, rows: &[usize], margins: &[Rule]) -> Result<Averages> {
         let grid = self.task.grid;
         let averaged = self.task.lut.averaged();
         let count = averaged.iter().map(|integrand| integrand.count()).sum();
@@ -261,14 +294,15 @@ impl Run<'_> {
         for integrand in averaged {
             let own = integrand == self.integrand();
             let baker = if own { baker } else { &Baker::new(integrand, &baker.rule) };
-            let (errors, margin) =
-                (baker.rule.errors(integrand), margin.map(|margin| margin.errors(integrand)));
+            let errors = baker.rule.errors(integrand);
+            let margins: Vec<Errors> =
+                margins.iter().map(|margin| margin.errors(integrand)).collect();
             for ((values, &row), &alpha) in baker.averages(&alphas).iter().zip(rows).zip(&alphas) {
                 let of_rule = errors.at(alpha, values);
-                let of_margin =
-                    margin.map_or(Default::default(), |margin| margin.at(alpha, values));
+                let of_margin = row_with_bound(&margins, alpha)
+                    .map_or(Default::default(), |margin| margin.of(values));
                 let ball = |(k, &value): (usize, &f64)| {
-                    let error = of_rule[k] + average_error(integrand) + MARGIN * of_margin[k];
+                    let error = of_rule[k] + AVERAGE_ERROR + MARGIN * of_margin[k];
                     Ball { value, error }
                 };
                 averages.set(row, first, values.iter().enumerate().map(ball));

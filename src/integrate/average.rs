@@ -3,38 +3,82 @@
 
 use super::{Field, Integrand};
 use crate::brdf::interface::{Side, TransmissionMasking};
-use crate::brdf::{Fresnel, Microfacet, Ndf};
+use crate::brdf::{Fresnel, Masking, Microfacet, Ndf};
+use crate::integrate::bounds::WIDE_LAYER;
 use crate::numeric::quadrature::gauss_legendre::gauss_legendre;
 use crate::numeric::quadrature::tanh_sinh::tanh_sinh;
 
-/// Directions of an average, for each half of it.
+/// Directions of an average, for each half of it: enough for every lobe without a jump, from
+/// roughness 0.002 on.
 const NODES: usize = 64;
 
+/// Directions of an average of most lobes.
+pub const DIRECTIONS: usize = 2 * NODES;
+
 /// (n·v, weight) of the directions; the weights add up to 1.
-///
-/// Gauss-Legendre in q, μ = q³ up to 1/2 and 1 - q³ beyond, resolves the layer at grazing angles,
-/// the bend of Charlie's fitted term at 1/2 and its root at 1.
 pub fn average_nodes() -> Vec<(f64, f64)> {
-    let end = libm::cbrt(0.5);
+    crowded_nodes(0.0, 1.0, NODES)
+}
+
+/// The same for the directions from one n·v to another, `count` for each half: Gauss-Legendre in
+/// q³, the distance from either end, resolves the layer at grazing angles, the bend of Charlie's
+/// fitted term at 1/2 and its root at 1.
+fn crowded_nodes(from: f64, to: f64, count: usize) -> Vec<(f64, f64)> {
+    let (end, length) = (libm::cbrt(0.5), to - from);
     let half = |mu: fn(f64) -> f64| {
-        gauss_legendre(NODES).into_iter().map(move |n| {
+        gauss_legendre(count).into_iter().map(move |n| {
             let q = end * n.at;
-            let mu = mu(q * q * q);
-            (mu, 2.0 * mu * 3.0 * q * q * end * n.weight)
+            let mu = from + length * mu(q * q * q);
+            (mu, 2.0 * mu * length * 3.0 * q * q * end * n.weight)
         })
     };
     half(|cube| cube).chain(half(|cube| 1.0 - cube)).collect()
 }
 
-/// (n·v, weight) of the directions at an α: of an interface of dielectrics in pieces, tanh-sinh in
-/// each.
+/// Directions for each half of a piece of a lobe's average at an α: the fewest in steps of 8 that
+/// keep [`AVERAGE_ERROR`], measured against twice as many.
+fn directions(lobe: Microfacet, alpha: f64) -> usize {
+    let wide = alpha >= WIDE_LAYER;
+    match (lobe.ndf, lobe.masking) {
+        (Ndf::Charlie, _) if wide => 32,
+        // The ring's layer at the horizon is as thin as √α and more.
+        (Ndf::Charlie, _) if alpha < 1e-5 => 256,
+        (Ndf::Charlie, _) => NODES,
+        (_, Masking::Implicit) => 32,
+        (Ndf::Ggx, _) => {
+            if wide {
+                32
+            } else {
+                48
+            }
+        }
+        (Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong, _) => {
+            if wide {
+                48
+            } else {
+                NODES
+            }
+        }
+    }
+}
+
+/// (n·v, weight) of the directions at an α: of a lobe that jumps on either side of the jump, and of
+/// an interface of dielectrics in pieces, tanh-sinh in each.
 ///
-/// Its albedo bends within α of grazing incidence, where F rises to 1 as c falls below √k, k = η² -
-/// 1, and from inside within α of the critical angle θ_c, and where θ_v = π/2 - θ_c or π/2 - 2 θ_c,
-/// at which the critical angle of a half vector meets the horizon.
+/// An interface's albedo bends within α of grazing incidence, where F rises to 1 as c falls below
+/// √k, k = η² - 1, and from inside within α of the critical angle θ_c, and where θ_v = π/2 - θ_c or
+/// π/2 - 2 θ_c, at which the critical angle of a half vector meets the horizon.
 pub fn average_nodes_at(integrand: Integrand, alpha: f64) -> Vec<(f64, f64)> {
-    if !averages_by_row(integrand) {
-        return average_nodes();
+    if let Integrand::Specular(lobe, fresnel) = integrand
+        && !matches!(fresnel, Fresnel::Dielectric(_))
+    {
+        let count = directions(lobe, alpha);
+        return match lobe.break_at(alpha).filter(|_| lobe.jumps()) {
+            Some(jump) => {
+                [crowded_nodes(0.0, jump, count), crowded_nodes(jump, 1.0, count)].concat()
+            }
+            None => crowded_nodes(0.0, 1.0, count),
+        };
     }
     let mut breaks = vec![0.0, alpha, WIDE * alpha, 1.0];
     match integrand {
@@ -63,9 +107,14 @@ pub fn average_nodes_at(integrand: Integrand, alpha: f64) -> Vec<(f64, f64)> {
     nodes.collect()
 }
 
-/// Whether the directions vary with α: those of interfaces of dielectrics do.
+/// Whether the directions have to vary with α: those of interfaces of dielectrics, of a jump and of
+/// Charlie do.
 pub fn averages_by_row(integrand: Integrand) -> bool {
-    matches!(integrand, Integrand::Glass(_) | Integrand::Specular(_, Fresnel::Dielectric(_)))
+    match integrand {
+        Integrand::Glass(_) | Integrand::Specular(_, Fresnel::Dielectric(_)) => true,
+        Integrand::Specular(lobe, _) => lobe.jumps() || lobe.ndf == Ndf::Charlie,
+        Integrand::Diffuse(_) => false,
+    }
 }
 
 /// Whether it is of GGX with a rational masking term: Gaussian slopes and the beta function take
@@ -87,14 +136,9 @@ const PIECE_NODES: usize = 48;
 /// The end of a bend of width α, in α: found by trial.
 const WIDE: f64 = 12.0;
 
-/// The largest error of the nodes' quadrature: 1e-12, but for Walter's term, which jumps between
-/// two nodes. What passes an interface the one way and the other agrees within that.
-pub fn average_error(integrand: Integrand) -> f64 {
-    match integrand {
-        Integrand::Specular(Microfacet { ndf: Ndf::BeckmannWalter, .. }, _) => 1e-6,
-        _ => 1e-12,
-    }
-}
+/// The largest error of the nodes' quadrature, and how well what passes an interface the one way
+/// and the other agrees.
+pub const AVERAGE_ERROR: f64 = 1e-12;
 
 /// The average of each row of integrals given at the directions of [`average_nodes`].
 pub fn averages(nodes: &[(f64, f64)], rows: &Field) -> Field {

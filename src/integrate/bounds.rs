@@ -5,7 +5,9 @@
 //! A new distribution needs an arm of [`columns`] and the constants that it names: [`NONE`] for
 //! rules that it is not to use.
 
-use crate::brdf::interface::{Interface, Side, TransmissionMasking};
+mod glass;
+
+pub use self::glass::{glass_columns, glass_layer};
 use crate::brdf::{Masking, Microfacet, Ndf};
 
 /// Below this α (roughness 0.07) Charlie's ring lies so near the horizon that the double
@@ -15,6 +17,10 @@ pub const CHARLIE_LIMIT: f64 = 0.0049;
 /// Above this α (roughness 0.7) Blinn-Phong falls like a low power of the slope, and the rules over
 /// planes of light directions are given no bound; s2560 takes one's integrals up to 0.5625.
 pub const BLINN_PHONG_LIMIT: f64 = 0.49;
+
+/// From this α (roughness 0.1) on, where the layer at grazing is wide, rules for GGX and Charlie
+/// are several times as sharp as below.
+pub const WIDE_LAYER: f64 = 0.01;
 
 /// Below this α (roughness 1e-5) the reference keeps 2e-6 of Charlie only, and nothing is known
 /// better.
@@ -127,17 +133,28 @@ pub struct Columns {
     pub g4536: Bound,
 }
 
-/// The bounds for a lobe at an α: for Charlie wider below [`CHARLIE_LIMIT`], and wider still below
-/// [`CHARLIE_UNKNOWN`]; for Blinn-Phong wider above [`BLINN_PHONG_LIMIT`].
+/// The bounds for a lobe at an α: for GGX and Charlie wider below [`WIDE_LAYER`], and for Charlie
+/// wider still below [`CHARLIE_LIMIT`] and [`CHARLIE_UNKNOWN`]; for Blinn-Phong wider above
+/// [`BLINN_PHONG_LIMIT`].
 pub const fn columns(lobe: Microfacet, alpha: f64) -> &'static Columns {
     match lobe.ndf {
-        Ndf::Ggx => &GGX,
+        Ndf::Ggx if alpha < WIDE_LAYER => &GGX_BELOW_WIDE_LAYER,
+        Ndf::Ggx => match lobe.masking {
+            Masking::Implicit => &GGX_IMPLICIT,
+            Masking::Separable | Masking::SchlickSmith => &GGX_SEPARABLE,
+            _ => &GGX,
+        },
         Ndf::Beckmann => &BECKMANN,
         Ndf::BeckmannWalter => &BECKMANN_WALTER,
-        Ndf::BlinnPhong if alpha > BLINN_PHONG_LIMIT => &BLINN_PHONG_BEYOND_LIMIT,
-        Ndf::BlinnPhong => &BLINN_PHONG,
+        Ndf::BlinnPhong => match lobe.masking {
+            Masking::Implicit if alpha > BLINN_PHONG_LIMIT => &BLINN_PHONG_IMPLICIT_BEYOND_LIMIT,
+            Masking::Implicit => &BLINN_PHONG_IMPLICIT,
+            _ if alpha > BLINN_PHONG_LIMIT => &BLINN_PHONG_BEYOND_LIMIT,
+            _ => &BLINN_PHONG,
+        },
         Ndf::Charlie => match lobe.masking {
-            _ if alpha >= CHARLIE_LIMIT => &CHARLIE,
+            _ if alpha >= WIDE_LAYER => &CHARLIE,
+            _ if alpha >= CHARLIE_LIMIT => &CHARLIE_BELOW_WIDE_LAYER,
             Masking::HeightCorrelated => &CHARLIE_FITTED_BELOW_LIMIT,
             _ if alpha >= CHARLIE_UNKNOWN => &CHARLIE_BELOW_LIMIT,
             _ => &CHARLIE_UNKNOWN_BELOW,
@@ -145,7 +162,7 @@ pub const fn columns(lobe: Microfacet, alpha: f64) -> &'static Columns {
     }
 }
 
-const GGX: Columns = Columns {
+const GGX_BELOW_WIDE_LAYER: Columns = Columns {
     h56: all(1e-3),
     h130: all(1e-4),
     h288: all(1e-5),
@@ -160,6 +177,24 @@ const GGX: Columns = Columns {
     s2304: sharp(3e-8, 8e-8, 3e-11),
     ..SMOOTH
 };
+
+/// With the height-correlated term and its approximation, which couple both directions.
+const GGX: Columns = Columns {
+    l4608: sharp(3.5e-9, 8e-8, 1e-12),
+    s1440: sharp(4.5e-8, 7.5e-7, 2e-10),
+    s2304: sharp(4e-9, 2e-7, 1.5e-11),
+    ..GGX_BELOW_WIDE_LAYER
+};
+
+/// With a term of each direction for itself.
+const GGX_SEPARABLE: Columns = Columns {
+    l4608: sharp(1.5e-12, 1e-11, 2e-14),
+    s1440: sharp(1.2e-8, 3e-7, 2e-10),
+    s2304: sharp(1.6e-9, 3e-8, 1.5e-11),
+    ..GGX_BELOW_WIDE_LAYER
+};
+
+const GGX_IMPLICIT: Columns = Columns { s1440: sharp(3e-9, 1e-7, 7.5e-10), ..GGX_SEPARABLE };
 
 const BECKMANN: Columns = Columns {
     h56: all(2.5e-3),
@@ -204,7 +239,18 @@ const BLINN_PHONG: Columns = Columns {
 /// Where the lobe is so wide that it does not end.
 const BLINN_PHONG_BEYOND_LIMIT: Columns = Columns { p480: NONE, p1024: NONE, ..BLINN_PHONG };
 
+const BLINN_PHONG_IMPLICIT: Columns = Columns { s2560: sharp(4e-9, 5e-9, 3e-10), ..BLINN_PHONG };
+
+const BLINN_PHONG_IMPLICIT_BEYOND_LIMIT: Columns =
+    Columns { s2560: sharp(6e-10, 1e-8, 5e-11), ..BLINN_PHONG_BEYOND_LIMIT };
+
 const CHARLIE: Columns = Columns {
+    r2552: sharp(7e-10, 3e-7, 1e-12),
+    s2432: sharp(8e-9, 7e-7, 1.5e-10),
+    ..CHARLIE_BELOW_WIDE_LAYER
+};
+
+const CHARLIE_BELOW_WIDE_LAYER: Columns = Columns {
     d6144: sharp(5e-7, 1.5e-6, 1e-12),
     d10240: sharp(6e-9, 7e-8, 1e-12),
     ..CHARLIE_BELOW_LIMIT
@@ -287,84 +333,3 @@ const SMOOTH: Columns = Columns {
     g2240: NONE,
     g4536: NONE,
 };
-
-/// The bounds for a rough interface.
-pub fn glass_columns(interface: Interface) -> &'static Columns {
-    match (interface.transmission(), interface.lobe().ndf, interface.side()) {
-        (TransmissionMasking::Beta, _, _) => &GLASS_BETA,
-        (_, Ndf::Beckmann, _) => &GLASS_BECKMANN,
-        (_, _, Side::Outside) => &GLASS,
-        (_, _, Side::Inside) => &GLASS_INSIDE,
-    }
-}
-
-const GLASS: Columns = Columns {
-    g112: all(2e-3),
-    g560: all(1e-5),
-    g904: all(1.5e-6),
-    g2240: all(1.2e-7),
-    g4536: all(5e-9),
-    reference: all(1e-12),
-    ..WITHOUT_GLASS
-};
-
-/// Far below the critical angle T spans ten decades.
-const GLASS_INSIDE: Columns =
-    Columns { g904: sharp(1.5e-6, 6e-4, 2e-11), g4536: sharp(5e-9, 1e-4, 1e-12), ..GLASS };
-
-/// Gaussian tails end within a piece, which few nodes do not follow.
-const GLASS_BECKMANN: Columns = Columns {
-    g112: all(8e-3),
-    g560: all(5e-4),
-    g904: all(1e-4),
-    g2240: all(1e-6),
-    g4536: all(1e-7),
-    reference: all(1e-12),
-    ..WITHOUT_GLASS
-};
-
-/// The beta function falls like a power of n·l that is no whole number, which no rule resolves:
-/// worst where n·v = 0, α = 1 and n is about 10.
-const GLASS_BETA: Columns = Columns {
-    g112: all(3e-2),
-    g560: all(2e-3),
-    g904: all(5e-4),
-    g2240: all(4e-5),
-    g4536: all(8e-6),
-    reference: all(3e-12),
-    ..WITHOUT_GLASS
-};
-
-/// What a layer adds for a rough interface. Where the index is near 1, F falls from 1 within the
-/// root of n² - 1 of grazing incidence; where it is large, within 1/n. Rules err most where that is
-/// as wide as the spacing of their nodes: `g560` at n = 1.002, `g904` at 1.0013 and 30, `g2240` at
-/// 1.0002.
-pub fn glass_layer(interface: Interface) -> Option<&'static Columns> {
-    match interface.ior() {
-        ..1.002 | 12.0.. => Some(&GLASS_LAYER),
-        ..1.05 | 2.75.. => Some(&GLASS_WIDE_LAYER),
-        _ => None,
-    }
-}
-
-const GLASS_LAYER: Columns = Columns {
-    g112: all(1e-3),
-    g560: all(1.5e-4),
-    g904: all(8e-5),
-    g2240: all(1e-5),
-    g4536: all(3e-6),
-    reference: all(1e-12),
-    ..WITHOUT_GLASS
-};
-
-const GLASS_WIDE_LAYER: Columns = Columns {
-    g112: all(1e-3),
-    g560: all(1.5e-4),
-    g904: all(8e-5),
-    g2240: all(5e-7),
-    g4536: all(2e-8),
-    reference: all(1e-12),
-    ..WITHOUT_GLASS
-};
-
-const WITHOUT_GLASS: Columns = Columns { d6144: NONE, d10240: NONE, ..SMOOTH };

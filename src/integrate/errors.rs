@@ -6,6 +6,7 @@ use super::rule::{Method, Rule};
 use super::{Integrand, scale};
 use crate::brdf::fresnel::MOST_WEIGHTS;
 use crate::brdf::{Fresnel, Masking, Microfacet, Ndf};
+use crate::numeric::lanes::Real;
 
 /// The bounds of a rule's errors for an integrand, to be asked row by row.
 #[derive(Clone, Copy, Debug)]
@@ -66,9 +67,10 @@ pub fn f32_arithmetic(integrand: impl Into<Integrand>) -> f64 {
 /// rules within 3e-6: twice the largest that was measured on lavapipe and SwiftShader
 /// (tests/vulkan/certified.rs). The power is that of (1 - v·h)⁵, whose f32 errs like the fourth
 /// power of its base.
-fn of_small(integral: f64) -> f64 {
+#[inline(always)]
+fn of_small<R: Real>(integral: R) -> R {
     let root = integral.sqrt();
-    2e-6 * root * root.sqrt() + 2e-9
+    root * root.sqrt() * 2e-6 + 2e-9
 }
 
 /// The bound below which [`of_small`] was measured.
@@ -156,46 +158,56 @@ impl Errors {
 }
 
 impl RowErrors {
-    /// The bounds of the errors of these integrals; zeros for those that there are not.
+    /// The bounds of the errors of these integrals, of one point or of as many as R has lanes;
+    /// zeros for those that there are not.
     #[inline(always)]
-    pub fn of(&self, integrals: &[f64]) -> [f64; MOST_WEIGHTS] {
+    pub fn of<R: Real>(&self, integrals: &[R]) -> [R; MOST_WEIGHTS] {
         let scale = scale(integrals);
-        let mut errors = [0.0; MOST_WEIGHTS];
-        for (k, (error, integral)) in errors.iter_mut().zip(integrals).enumerate() {
+        let mut errors = [R::from(0.0); MOST_WEIGHTS];
+        for (k, (error, &integral)) in errors.iter_mut().zip(integrals).enumerate() {
             *error = match k {
                 0 if !self.all_vanish => self.of_first(scale),
                 _ => {
                     self.of_vanishing(self.factors[k], integral.abs(), scale)
-                        + self.added[k] * scale
+                        + scale * self.added[k]
                 }
             };
         }
         errors
     }
 
+    /// Whether there is a bound.
+    pub fn is_bounded(&self) -> bool {
+        self.bound.all.is_finite()
+    }
+
+    /// Whether they are those of a device.
+    pub fn on_device(&self) -> bool {
+        self.device.is_some()
+    }
+
     #[inline(always)]
-    fn of_first(&self, scale: f64) -> f64 {
-        self.bound.all * scale + self.device.map_or(0.0, |device| device.f32 * scale)
+    fn of_first<R: Real>(&self, scale: R) -> R {
+        scale * self.bound.all + scale * self.device.map_or(0.0, |device| device.f32)
     }
 
     /// The bound of an integral whose weight vanishes at normal incidence.
     #[inline(always)]
-    fn of_vanishing(&self, factor: f64, integral: f64, scale: f64) -> f64 {
+    fn of_vanishing<R: Real>(&self, factor: f64, integral: R, scale: R) -> R {
         let Bound { all, relative, absolute } = self.bound;
         // Without a sharp bound a product with 0 would be NaN.
         let sharp = if relative.is_finite() {
-            factor * (relative * integral + absolute * scale)
+            (integral * relative + scale * absolute) * factor
         } else {
-            f64::INFINITY
+            R::from(f64::INFINITY)
         };
-        let error = sharp.min(all * scale);
+        let error = sharp.min(scale * all);
         match self.device {
             None => error,
-            Some(_) if error.is_infinite() => error,
             Some(Device { f32, sharp: true }) => {
-                (factor * scale * of_small(integral / scale)).min(error + f32 * scale)
+                (scale * of_small(integral / scale) * factor).min(error + scale * f32)
             }
-            Some(Device { f32, sharp: false }) => error + f32 * scale,
+            Some(Device { f32, sharp: false }) => error + scale * f32,
         }
     }
 }

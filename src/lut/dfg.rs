@@ -111,6 +111,11 @@ impl Dfg {
         }
     }
 
+    /// Whether they are the integrals themselves.
+    pub(super) fn is_integrals(&self) -> bool {
+        self.channels == DfgChannels::All
+    }
+
     /// Their values, and zeros for the channels that there are not.
     #[inline(always)]
     pub(super) fn values(&self, integrals: &[Ball]) -> [Ball; MOST_CHANNELS] {

@@ -318,6 +318,13 @@ impl Part {
         &self.ranges
     }
 
+    /// Whether a texel's values are its integrals, as many and in their order, none of them less
+    /// than 0.
+    pub fn is_integrals(&self) -> bool {
+        let integrals = matches!(&self.lut, Lut::Dfg(dfg) if dfg.is_integrals());
+        integrals && self.plain && self.ranges.iter().all(|range| range.0 <= 0.0)
+    }
+
     /// The values of its channels: see [`Lut::values`]. The first [`Part::count`] are used.
     #[inline(always)]
     pub fn values(&self, mu: f64, integrals: &[Ball], averages: &[Ball]) -> [Ball; MOST_CHANNELS] {

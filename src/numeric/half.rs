@@ -8,6 +8,15 @@ use super::lanes::ROUND_F64;
 /// The largest finite half.
 pub const LARGEST: f64 = 65504.0;
 
+/// The smallest normal half, 2^-14.
+const SMALLEST_NORMAL: f64 = 1.0 / 16384.0;
+
+/// The bits of a mantissa of 52 that a half, which has 10, drops.
+const DROPPED: u32 = 42;
+
+/// The dropped bits at a boundary of rounding: half a unit of those that stay.
+const BOUNDARY: u64 = 1 << (DROPPED - 1);
+
 /// The step between halves at the finite `value`: 2^(e-10) for 2^e <= |value| < 2^(e+1), and never
 /// below 2^-24.
 pub fn step(value: f64) -> f64 {
@@ -28,9 +37,34 @@ pub fn nearest(value: f64) -> f64 {
     if nearest.abs() > LARGEST { f64::INFINITY.copysign(value) } else { nearest }
 }
 
+/// The half nearest to every number that is at most `error` from `value`; NaN where they are not
+/// all nearest to the same, and below the smallest normal half, for [`nearest`] to tell.
+#[inline(always)]
+pub fn nearest_to_all(value: f64, error: f64) -> f64 {
+    // Of positive numbers with the same upper bits, half round down, the others up, and a carry
+    // runs into the exponent.
+    let (low, high) = (value - error, value + error);
+    // Both ends one unit outwards, since sum and difference are rounded; and what lies on a
+    // boundary belongs to neither half.
+    let first = low.to_bits().wrapping_add(BOUNDARY - 2) >> DROPPED;
+    let last = high.to_bits().wrapping_add(BOUNDARY + 1) >> DROPPED;
+    let normal = low > SMALLEST_NORMAL && high < LARGEST;
+    // Without a branch, for lanes.
+    let half = f64::from_bits(last << DROPPED);
+    if normal & (first == last) { half } else { f64::NAN }
+}
+
 /// The bits of [`nearest`].
 pub fn round(value: f64) -> u16 {
     let sign = if value.is_sign_negative() { 0x8000 } else { 0 };
+    let size = value.abs();
+    if (SMALLEST_NORMAL..LARGEST).contains(&size) {
+        // What is dropped rounds up from half a unit on, or beyond it where the unit is even
+        // already; the exponent is stored 15 too large in place of 1023.
+        let (bits, odd) = (size.to_bits(), size.to_bits() >> DROPPED & 1);
+        let rounded = (bits + (BOUNDARY - 1) + odd) >> DROPPED;
+        return sign | (rounded - ((1023 - 15) << 10)) as u16;
+    }
     let v = nearest(value).abs();
     if v.is_nan() {
         return 0x7e00;

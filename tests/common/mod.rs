@@ -185,12 +185,15 @@ pub fn errors_at(rule: &Rule, lobe: Microfacet, alpha: f64, value: ScaleBias) ->
     ScaleBias { a: errors[0], b: errors[1] }
 }
 
-/// A and B averaged over all directions, by the reference on double exponential nodes in two pieces
-/// that meet at `middle`.
-pub fn average_in_two_pieces(lobe: Microfacet, alpha: f64, middle: f64) -> ScaleBias {
+/// A and B averaged over all directions, by the reference on double exponential nodes in pieces
+/// that meet at these n·v.
+pub fn average_in_pieces(lobe: Microfacet, alpha: f64, middles: &[f64]) -> ScaleBias {
     let integrator = Integrator::new(REFERENCE);
     let mut sum = ScaleBias::default();
-    for (start, length) in [(0.0, middle), (middle, 1.0 - middle)] {
+    let mut ends = [&[0.0, 1.0], middles].concat();
+    ends.sort_by(f64::total_cmp);
+    for piece in ends.windows(2) {
+        let (start, length) = (piece[0], piece[1] - piece[0]);
         for node in tanh_sinh(72) {
             let mu = start + length * node.from_start;
             add(&mut sum, 2.0 * length * node.weight * mu, integrator.integrate(lobe, mu, alpha));
