@@ -99,6 +99,28 @@ fn stages_change_nothing(lobe: Microfacet, grid: &Grid, part: &Part) {
 }
 
 #[test]
+fn stages_that_have_no_bound_somewhere_are_passed_over_there() {
+    // Charlie's fitted term below roughness 0.07, where only the reference has a bound; Blinn-Phong
+    // on either side of roughness 0.7, beyond which p1024 has none.
+    let sheen = Microfacet { ndf: Ndf::Charlie, masking: Masking::HeightCorrelated };
+    let phong = Microfacet { ndf: Ndf::BlinnPhong, masking: Masking::Separable };
+    let cases = [
+        (sheen, grid("nov,edges,min=0.2", "roughness,edges,min=0.03,max=0.06", 4)),
+        (phong, grid("nov", "roughness,edges,min=0.5", 24)),
+    ];
+    for (lobe, grid) in cases {
+        let lut = part(lobe);
+        let task = task(&lut, &grid, Precision::F16);
+        let whole = certify(&task, None).unwrap();
+        let rule = Rule::named("h6144").unwrap();
+        let integrals = cpu::bake(lobe, &grid, &rule, &|_| ());
+        let device = DeviceTable { integrals: &integrals, rule: &rule, name: "a device" };
+        let through = certify(&task, Some(device)).unwrap();
+        assert_eq!((&through.values, &through.certificate), (&whole.values, &whole.certificate));
+    }
+}
+
+#[test]
 fn stages_do_not_change_a_value_and_the_reference_sees_the_same_texels() {
     let lobe = ggx(Masking::HeightCorrelated);
     let large = grid("nov", "roughness", 96);

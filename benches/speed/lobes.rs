@@ -1,11 +1,13 @@
 //! Certified tables of every lobe beside 1,024 samples of the same: what a table costs whose every
 //! value is right, over what most bakers pay.
 
-use splitsum::backend::Backend;
+use splitsum::backend::device::GpuOptions;
+use splitsum::backend::{Backend, BackendChoice, list_devices};
 use splitsum::brdf::{Fresnel, Microfacet, Ndf};
 use splitsum::compare::study::{median, timed};
 use splitsum::compare::technique::{Arithmetic, BASELINE, Setting};
 use splitsum::lut::{Dfg, DfgChannels, Energy, EnergyChannels, Lut};
+use splitsum::report::Computed;
 use splitsum::request::Request;
 use splitsum::table::grid::Grid;
 use splitsum::table::precision::Precision;
@@ -76,6 +78,56 @@ fn energy() {
             };
             let [ours, plain] = in_turns(|| bake(&table), || bake(&plain));
             println!("| {}, {channels} | {:.1} | {:.2} |", lobe.ndf, 1e3 * ours, ours / plain);
+        }
+    }
+    println!();
+}
+
+/// Every lobe on every device: the device's own time, that of the whole bake beside the CPU's alone,
+/// and the share of texels that the CPU only checks.
+pub fn on_devices() {
+    let devices = list_devices().unwrap_or_default();
+    if devices.is_empty() {
+        return;
+    }
+    let size = SIZES[0];
+    println!(
+        "| device, {size} x {size}, certified f16 | lobe | rule | on the device ms | bake ms | by \
+         the CPU alone ms | ratio | decided by the device |"
+    );
+    println!("{}|", "| --- ".repeat(8));
+    let cpu = Backend::cpu();
+    for device in devices {
+        let options = GpuOptions { device: Some(device.uuid.clone()), ..GpuOptions::default() };
+        let Ok(backend) = Backend::open(BackendChoice::Vulkan, &options) else { continue };
+        for lobe in Microfacet::all() {
+            let table = request(dfg(lobe), size);
+            // A rule that no device can do with the lobe.
+            let Ok(baked) = splitsum::bake(&table, &backend) else { continue };
+            let [ours, theirs] = in_turns(
+                || drop(splitsum::bake(&table, &backend).unwrap()),
+                || drop(splitsum::bake(&table, &cpu).unwrap()),
+            );
+            let (report, stage) = (&baked.reports[0], &baked.reports[0].stages[0]);
+            let own = match report.computed {
+                Computed::Vulkan { device_seconds: Some(seconds), .. } => {
+                    format!("{:.2}", 1e3 * seconds)
+                }
+                _ => "no clock".into(),
+            };
+            let rule = stage.by.rsplit(' ').next().unwrap_or_default();
+            let share =
+                stage.decided.map_or(0.0, |decided| decided as f64 / stage.texels.max(1) as f64);
+            println!(
+                "| {} | {}, {} | {rule} | {own} | {:.1} | {:.1} | {:.2} | {:.1} % |",
+                device.name,
+                lobe.ndf,
+                lobe.masking,
+                1e3 * ours,
+                1e3 * theirs,
+                ours / theirs,
+                100.0 * share
+            );
         }
     }
     println!();

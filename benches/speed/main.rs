@@ -41,6 +41,7 @@ fn main() {
     processes();
     glass();
     devices();
+    lobes::on_devices();
     certified();
 }
 

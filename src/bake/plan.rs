@@ -54,8 +54,9 @@ const LEFT_TO_DEVICE: f64 = 0.9;
 /// Seconds that a thread takes to decide the values of a texel, measured.
 const DECISION: f64 = 40e-9;
 
-/// Bytes besides the table for each texel of a band: the integrals of two stages and of a device,
-/// four of 8 bytes each at the most, its values, and whether it is decided.
+/// Bytes besides the table for each texel of a band: the integrals of the first stage and of a
+/// device, four of 8 bytes each at the most, what finer stages see of it, its values, and whether
+/// it is decided.
 const WORKING_BYTES: usize = 128;
 
 impl<'a> Plan<'a> {
@@ -185,7 +186,13 @@ fn seconds_saved(request: &Request, part: &Part, rules: &[Rule]) -> f64 {
 
 /// The approximate time of the first of these rules on a slice, averages included, on one thread.
 fn seconds_of_first(request: &Request, part: &Part, rules: &[Rule]) -> f64 {
-    rules.first().map_or(0.0, |rule| rule.seconds(part.integrand(), points(request, part)))
+    let points = match request.accuracy() {
+        Accuracy::Rounded | Accuracy::Within(_) => task(request, part, request.grid()).points(),
+        Accuracy::Rule(_) | Accuracy::Estimator(_) | Accuracy::Tolerance(_) => {
+            points(request, part)
+        }
+    };
+    rules.first().map_or(0.0, |rule| rule.seconds(part.integrand(), points))
 }
 
 /// Points of a slice at which a rule integrates: its texels, and the directions of its averages.

@@ -11,10 +11,10 @@ use crate::numeric::ball::Ball;
 use crate::numeric::lanes::vectorised;
 use crate::table::precision::Precision;
 
-/// The multiple of the last rule's error before the reference that earlier stages add to their own:
-/// their values and its own may err in opposite directions, and a thousandth more, since its
+/// The multiple of the finest rule's error before the reference that earlier stages add to their
+/// own: their values and its own may err in opposite directions, and a thousandth more, since its
 /// relative part is taken of their values.
-pub(super) const MARGIN: f64 = 2.001;
+pub(super) const BOTH_SIDES: f64 = 2.001;
 
 /// The outcome of a stage for some texels.
 #[derive(Clone, Copy, Default)]
@@ -38,7 +38,7 @@ pub(super) struct Decider<'a> {
     pub averages: &'a Averages,
     /// The bounds of the stage's errors.
     pub errors: Errors,
-    /// [`MARGIN`] times the errors of the first of these that has a bound are added.
+    /// [`BOTH_SIDES`] times the errors of the [`finest`] of these are added.
     pub margins: Vec<Errors>,
     /// Whether mirrors are computed in f64, and err by no more than its arithmetic.
     pub exact_mirrors: bool,
@@ -62,9 +62,11 @@ struct Row<'a> {
     averages: &'a [Ball],
 }
 
-/// The bounds at an α of the first of these that has a bound there.
-pub(super) fn row_with_bound(margins: &[Errors], alpha: f64) -> Option<RowErrors> {
-    margins.iter().map(|margin| margin.row(alpha)).find(RowErrors::is_bounded)
+/// The bounds at an α of the finest of these, if it is finer than the row's `own`.
+pub(super) fn finest(margins: &[Errors], own: &RowErrors, alpha: f64) -> Option<RowErrors> {
+    let rows = margins.iter().map(|margin| margin.row(alpha));
+    let finest = rows.min_by(|a, b| a.largest().total_cmp(&b.largest()));
+    finest.filter(|row| row.largest() < own.largest())
 }
 
 impl Decider<'_> {
@@ -77,8 +79,9 @@ impl Decider<'_> {
             Integrand::Glass(interface) => Some(Known::Points(interface, alpha)),
             Integrand::Specular(..) | Integrand::Diffuse(_) => None,
         };
-        let margin = row_with_bound(&self.margins, alpha);
-        Row { known, errors: self.errors.row(alpha), margin, averages: self.averages.row(row) }
+        let errors = self.errors.row(alpha);
+        let margin = finest(&self.margins, &errors, alpha);
+        Row { known, errors, margin, averages: self.averages.row(row) }
     }
 
     /// Takes over a texel's values if this stage decides them, and the best guess if it does not.
@@ -182,7 +185,7 @@ fn balls(row: &Row, mu: f64, integrals: &[f64]) -> [Ball; MOST_WEIGHTS] {
         None => [0.0; MOST_WEIGHTS],
     };
     for (k, (ball, &value)) in balls.iter_mut().zip(integrals).enumerate() {
-        *ball = Ball { value, error: errors[k] + MARGIN * margins[k] };
+        *ball = Ball { value, error: errors[k] + BOTH_SIDES * margins[k] };
     }
     if let Some(Known::Points(interface, alpha)) = row.known {
         let exact = interface.exact(mu, alpha);

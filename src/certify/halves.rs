@@ -1,7 +1,7 @@
 //! Rows of halves whose values are the integrals themselves: both ends of the balls of eight texels
 //! are rounded at a time.
 
-use super::decider::MARGIN;
+use super::decider::BOTH_SIDES;
 use crate::integrate::errors::RowErrors;
 use crate::numeric::half::nearest_to_all;
 use crate::numeric::lanes::{F64x8, Real, Vector, Work};
@@ -10,7 +10,7 @@ use std::array::from_fn;
 /// A row of texels of N integrals each.
 pub(super) struct Halves<'a, const N: usize> {
     pub errors: &'a RowErrors,
-    /// [`MARGIN`] times these errors are added.
+    /// [`BOTH_SIDES`] times these errors are added.
     pub margin: Option<&'a RowErrors>,
     pub integrals: &'a [[f64; N]],
     /// Filled in, and NaN where a half is in doubt.
@@ -30,7 +30,7 @@ impl<const N: usize> Work for Halves<'_, N> {
             let errors = self.errors.of(&lanes);
             let margins = self.margin.map(|margin| margin.of(&lanes));
             let halves: [F64x8; N] = from_fn(|k| {
-                let margin = margins.map_or(F64x8::from(0.0), |margins| margins[k] * MARGIN);
+                let margin = margins.map_or(F64x8::from(0.0), |margins| margins[k] * BOTH_SIDES);
                 lanes[k].zip(errors[k] + margin, nearest_to_all)
             });
             for (i, values) in values.iter_mut().enumerate() {

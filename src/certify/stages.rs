@@ -1,11 +1,12 @@
-//! The stages of certification: rules, each finer than the one before, made ready for a table.
+//! The stages of certification: rules, each finer than those before on some rows, made ready for a
+//! table.
 
 use super::decision::Task;
 use crate::backend::cpu::Baker;
 use crate::integrate::Integrand;
 use crate::integrate::errors::Errors;
 use crate::integrate::rule::{Method, Rule};
-use crate::integrate::rules::{CLOSED_FORM, D10240, G904, G4536, L4608, P1024, R2552, REFERENCE};
+use crate::integrate::rules::FINER;
 use crate::table::claim::{Stage, StageError};
 use crate::table::grid::Grid;
 use crate::table::precision::Precision;
@@ -25,12 +26,13 @@ const SOME_ALPHAS: [f64; 2] = [0.1, 1.0];
 /// The stages of the CPU, ready for any part of a table.
 #[derive(Clone, Debug)]
 pub struct Stages {
+    integrand: Integrand,
     pub(super) bakers: Vec<Baker>,
     /// Whether values are rounded correctly: of f32 only few values, and those in closed form.
     pub(super) rounds_correctly: bool,
 }
 
-/// The rules of the CPU's stages, each finer than the one before.
+/// The rules of the CPU's stages, each finer than those before on some rows.
 pub fn rules(task: &Task) -> Vec<Rule> {
     let integrand = task.lut.integrand();
     let texels = task.points();
@@ -41,8 +43,7 @@ pub fn rules(task: &Task) -> Vec<Rule> {
     // On smooth rows and on rough ones: Blinn-Phong's own rules have no bound on the latter.
     let errors = |rule: &Rule| SOME_ALPHAS.map(|alpha| rule.bound_at(integrand, alpha));
     let mut rules: Vec<Rule> = first.into_iter().collect();
-    let finer = [G904, G4536, L4608, P1024, R2552, D10240, REFERENCE, CLOSED_FORM];
-    for rule in finer.into_iter().filter(|rule| rule.applies_to(integrand)) {
+    for rule in FINER.into_iter().filter(|rule| rule.applies_to(integrand)) {
         let is_finer = |i: usize| rules.iter().all(|other| errors(&rule)[i] < errors(other)[i]);
         if (0..SOME_ALPHAS.len()).any(is_finer) {
             rules.push(rule);
@@ -57,7 +58,7 @@ impl Stages {
         Stages::by(task, &rules(task))
     }
 
-    /// The stages of these rules, each finer than the one before.
+    /// The stages of these rules, each finer than those before on some rows.
     pub fn by(task: &Task, rules: &[Rule]) -> Self {
         let integrand = task.lut.integrand();
         let values = task.grid.len() * task.lut.count() * task.slices;
@@ -67,23 +68,40 @@ impl Stages {
             Integrand::Glass(_) => values <= LARGEST_F32_OF_GLASS,
         };
         Stages {
+            integrand,
             bakers: rules.par_iter().map(|rule| Baker::new(integrand, rule)).collect(),
             rounds_correctly: task.precision.is_rounded_once()
                 || task.precision == Precision::F32 && few,
         }
     }
 
-    /// The rules between a stage, none of a device, and the reference, the finest first. A stage
-    /// widens its bounds of integrals and of averages by twice the error of the first of them that
-    /// has a bound at an α. Whatever it decides, that rule would decide too; hence the set of
-    /// texels that reaches the reference is independent of which stages ran.
+    /// The rules between a stage, none of a device, and the reference. A stage widens its bounds of
+    /// integrals and of averages by twice the error of the finest of them, row by row. Whatever it
+    /// decides, that rule would decide too; hence the set of texels that reaches the reference is
+    /// independent of which stages ran.
     pub(super) fn margins(&self, stage: Option<usize>) -> Vec<Rule> {
         let before_reference = match self.rounds_correctly {
             true => self.bakers.len().saturating_sub(1),
             false => 0,
         };
         let first = stage.map_or(0, |stage| stage + 1).min(before_reference);
-        self.bakers[first..before_reference].iter().rev().map(|baker| baker.rule).collect()
+        self.bakers[first..before_reference].iter().map(|baker| baker.rule).collect()
+    }
+
+    /// Whether the stage has a bound at an α.
+    pub(super) fn has_bound(&self, stage: usize, alpha: f64) -> bool {
+        self.bound_at(stage, alpha).is_finite()
+    }
+
+    /// Whether the stage is finer at an α than all before it; the last one takes whatever is left.
+    pub(super) fn is_of_use(&self, stage: usize, alpha: f64) -> bool {
+        let bound = self.bound_at(stage, alpha);
+        let is_finer = (0..stage).all(|before| bound < self.bound_at(before, alpha));
+        stage + 1 == self.bakers.len() || bound.is_finite() && is_finer
+    }
+
+    fn bound_at(&self, stage: usize, alpha: f64) -> f64 {
+        self.bakers[stage].rule.bound_at(self.integrand, alpha)
     }
 
     /// Whether the stage interpolates: cheap enough to check a device at every texel.

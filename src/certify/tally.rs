@@ -82,7 +82,7 @@ impl Tally {
         let measured = match integrand {
             Integrand::Diffuse(_) => String::new(),
             Integrand::Specular(..) | Integrand::Glass(_) => {
-                format!(", by bounds measured with a margin of {MARGIN}")
+                format!("; the error bounds are measured, with a margin of {MARGIN}")
             }
         };
         let rounded = format!(

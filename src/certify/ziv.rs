@@ -7,7 +7,7 @@
 //! The stages check each other. If two differ by more than the sum of their error bounds, a device
 //! or a bound is at fault: the table is thrown away, not mended.
 
-use super::decider::{Decider, MARGIN, Verdict, row_with_bound};
+use super::decider::{BOTH_SIDES, Decider, Verdict, finest};
 use super::decision::{Averages, Seen, Task, check_apart};
 use super::deviation::{check_range, sample, scatter};
 use super::stages::{Stages, summary};
@@ -151,7 +151,7 @@ impl Run<'_> {
             exact_mirrors: true,
             rounds_correctly: self.stages.rounds_correctly,
         };
-        let asked = self.open.iter().filter(|&&open| open).count();
+        let asked = (0..seen.len()).filter(|&place| self.open[seen.texel(place)]).count();
         let before = if self.stages.is_reference(index) { self.open.clone() } else { Vec::new() };
         let verdict = match &seen.texels {
             None => decide_all(
@@ -184,28 +184,26 @@ impl Run<'_> {
         Seen { texels: Some(texels), integrals }
     }
 
-    /// The texels that are not decided, and a few that are, where the stage has a bound.
+    /// The texels that are not decided, where the stage is of use, and a few that are.
     fn asked(&self, index: usize) -> Vec<usize> {
-        let (grid, integrand) = (self.task.grid, self.integrand());
-        let rule = |stage: usize| &self.stages.bakers[stage].rule;
-        let is_bounded = |stage: usize, texel: usize| {
-            rule(stage).bound_at(integrand, grid.point(texel).1).is_finite()
-        };
+        let alpha = |texel: usize| self.task.grid.point(texel).1;
+        let is_of_use = |texel: usize| self.stages.is_of_use(index, alpha(texel));
         let mut asked: Vec<usize> =
-            (0..self.open.len()).filter(|&texel| self.open[texel]).collect();
-        match self.seen.first() {
-            None => asked.extend(sample(grid)),
-            Some((_, seen)) => {
-                // Each audited texel passes through the first stage after that has a bound for it.
-                let audited = (0..AUDITED).map(|i| seen.texel(scatter(i) % seen.len()));
-                asked.extend(
-                    audited.filter(|&texel| (1..index).all(|stage| !is_bounded(stage, texel))),
-                );
-            }
+            (0..self.open.len()).filter(|&texel| self.open[texel] && is_of_use(texel)).collect();
+        // What checks a device, or the first stage, passes through the first stage from this one on
+        // that has a bound for it.
+        let is_first = |from: usize, texel: usize| {
+            let has_bound = |stage: usize| self.stages.has_bound(stage, alpha(texel));
+            has_bound(index) && !(from..index).any(has_bound)
+        };
+        if self.device.is_some() {
+            asked.extend(sample(self.task.grid).filter(|&texel| is_first(0, texel)));
         }
-        // The last stage is asked for whatever is left.
-        let is_last = index + 1 == self.stages.bakers.len();
-        asked.retain(|&texel| is_last || is_bounded(index, texel));
+        if let Some((_, seen)) = self.seen.first() {
+            let few = AUDITED.min(seen.len());
+            let audited = (0..few).map(|i| seen.texel(scatter(i) % seen.len()));
+            asked.extend(audited.filter(|&texel| is_first(1, texel)));
+        }
         asked.sort_unstable();
         asked.dedup();
         asked
@@ -228,8 +226,8 @@ impl Run<'_> {
         smallest
     }
 
-    /// Notes the work of a stage. Whatever is open now was seen by it, so that only the last one's
-    /// errors count.
+    /// Notes the work of a stage. The last one sees whatever is open, so that only its errors
+    /// count.
     fn note(&mut self, by: String, errors: &Errors, texels: usize, verdict: Verdict) {
         let decided = self.stages.rounds_correctly.then_some(verdict.decided);
         self.tally.error = verdict.error;
@@ -299,10 +297,10 @@ impl Run<'_> {
                 margins.iter().map(|margin| margin.errors(integrand)).collect();
             for ((values, &row), &alpha) in baker.averages(&alphas).iter().zip(rows).zip(&alphas) {
                 let of_rule = errors.at(alpha, values);
-                let of_margin = row_with_bound(&margins, alpha)
+                let of_margin = finest(&margins, &errors.row(alpha), alpha)
                     .map_or(Default::default(), |margin| margin.of(values));
                 let ball = |(k, &value): (usize, &f64)| {
-                    let error = of_rule[k] + AVERAGE_ERROR + MARGIN * of_margin[k];
+                    let error = of_rule[k] + AVERAGE_ERROR + BOTH_SIDES * of_margin[k];
                     Ball { value, error }
                 };
                 averages.set(row, first, values.iter().enumerate().map(ball));

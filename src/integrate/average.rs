@@ -8,11 +8,12 @@ use crate::integrate::bounds::WIDE_LAYER;
 use crate::numeric::quadrature::gauss_legendre::gauss_legendre;
 use crate::numeric::quadrature::tanh_sinh::tanh_sinh;
 
-/// Directions of an average, for each half of it: enough for every lobe without a jump, from
-/// roughness 0.002 on.
+/// Directions of an average, for each half of it: enough for every lobe but Charlie and those that
+/// jump.
 const NODES: usize = 64;
 
-/// Directions of an average of most lobes.
+/// Directions of [`average_nodes`], and about as many as an average takes elsewhere: for estimates
+/// of time.
 pub const DIRECTIONS: usize = 2 * NODES;
 
 /// (n·v, weight) of the directions; the weights add up to 1.
@@ -41,24 +42,14 @@ fn directions(lobe: Microfacet, alpha: f64) -> usize {
     let wide = alpha >= WIDE_LAYER;
     match (lobe.ndf, lobe.masking) {
         (Ndf::Charlie, _) if wide => 32,
-        // The ring's layer at the horizon is as thin as √α and more.
+        // The ring's layer at the horizon is thinner than √α.
         (Ndf::Charlie, _) if alpha < 1e-5 => 256,
         (Ndf::Charlie, _) => NODES,
         (_, Masking::Implicit) => 32,
-        (Ndf::Ggx, _) => {
-            if wide {
-                32
-            } else {
-                48
-            }
-        }
-        (Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong, _) => {
-            if wide {
-                48
-            } else {
-                NODES
-            }
-        }
+        (Ndf::Ggx, _) if wide => 32,
+        (Ndf::Ggx, _) => 48,
+        (Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong, _) if wide => 48,
+        (Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong, _) => NODES,
     }
 }
 

@@ -176,9 +176,9 @@ impl RowErrors {
         errors
     }
 
-    /// Whether there is a bound.
-    pub fn is_bounded(&self) -> bool {
-        self.bound.all.is_finite()
+    /// The largest error where no albedo exceeds 1; infinite where there is no bound.
+    pub fn largest(&self) -> f64 {
+        self.of_first(1.0)
     }
 
     /// Whether they are those of a device.

@@ -3,7 +3,9 @@
 use super::Integrand;
 use super::errors::f32_arithmetic;
 use super::rule::{Method, Rule};
-use super::rules::{COARSE_ERROR, COARSE_REFERENCE, FINER_REFERENCE, G560, REFERENCE, RULES};
+use super::rules::{
+    COARSE_ERROR, COARSE_REFERENCE, FINER, FINER_REFERENCE, G560, REFERENCE, RULES,
+};
 use crate::error::{Error, Result};
 
 impl Rule {
@@ -64,7 +66,8 @@ impl Rule {
         const UNDECIDED_BY_ERROR: f64 = 1.5e5;
         // That of most rows.
         let error = |rule: &Rule| rule.bound_at(integrand, 1.0);
-        let finer = Rule::cheapest(integrand, 1, |rule| error(rule) < error(self));
+        let finer =
+            FINER.into_iter().find(|rule| rule.applies_to(integrand) && error(rule) < error(self));
         let undecided = (UNDECIDED_BY_ERROR * error(self)).min(1.0) * texels as f64;
         finer.map_or(0.0, |finer| undecided * finer.seconds(integrand, 1))
     }

@@ -2,8 +2,8 @@
 //! one to the next.
 
 use crate::integrate::Integrand;
+use crate::integrate::bounds::{BLINN_PHONG_LIMIT, CHARLIE_LIMIT, WIDE_LAYER};
 use crate::integrate::interpolant::SMOOTHEST;
-use crate::integrate::rule::CHARLIE_LIMIT;
 use crate::units::{LARGEST_ALPHA, SMALLEST_ALPHA, SMALLEST_COSINE};
 
 /// A point of the domain.
@@ -133,7 +133,8 @@ impl Places {
             5 => self.within(crowded.alpha.sqrt() * few, crowded.alpha),
             6 => self.within(1.0 - (crowded.alpha * few) * (crowded.alpha * few), crowded.alpha),
             _ => {
-                let limit = if r < 0.5 { CHARLIE_LIMIT } else { SMOOTHEST * SMOOTHEST };
+                let limits = [CHARLIE_LIMIT, WIDE_LAYER, BLINN_PHONG_LIMIT, SMOOTHEST * SMOOTHEST];
+                let limit = limits[(r * limits.len() as f64) as usize % limits.len()];
                 let off = libm::exp10(self.random.between(-12.0, -1.0));
                 self.within(crowded.mu, limit * (1.0 + off.copysign(u - 0.5)))
             }
