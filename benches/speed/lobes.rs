@@ -83,8 +83,8 @@ fn energy() {
     println!();
 }
 
-/// Every lobe on every device: the device's own time, that of the whole bake beside the CPU's alone,
-/// and the share of texels that the CPU only checks.
+/// Every lobe on every device: the device's own time, that of the whole bake beside the CPU's
+/// alone, and the share of texels that the CPU only checks.
 pub fn on_devices() {
     let devices = list_devices().unwrap_or_default();
     if devices.is_empty() {

@@ -151,8 +151,8 @@ pub const S2560: Rule = interpolant("s2560", S2560_NODES, |bounds| bounds.s2560)
 /// Interpolated in pieces, for Charlie: the first stage of certification.
 pub const S2432: Rule = interpolant("s2432", S2432_NODES, |bounds| bounds.s2432);
 
-/// What decides the values that a first rule leaves undecided, in this order: rules, each finer than
-/// those before on some rows, of those that apply.
+/// What decides the values that a first rule leaves undecided, in this order: of those that apply,
+/// rules that are finer on some rows than all before.
 pub const FINER: [Rule; 8] = [G904, G4536, L4608, P1024, R2552, D10240, REFERENCE, CLOSED_FORM];
 
 /// Every rule.
