@@ -140,7 +140,7 @@ fn glass() {
 fn devices() {
     let devices = list_devices().unwrap_or_default();
     if devices.is_empty() {
-        println!("No Vulkan device.");
+        println!("No Vulkan device.\n");
         return;
     }
     let grid = request(SIZE, Precision::F16).grid().clone();
@@ -179,6 +179,7 @@ fn devices() {
             );
         }
     }
+    println!();
 }
 
 /// The hash of a certified table, the same on every machine.
@@ -191,5 +192,5 @@ fn certified() {
         .certificate()
         .map(|certificate| certificate.blake3.clone())
         .unwrap_or_default();
-    println!("\nThe certified table of 512 x 512 in half has BLAKE3 {hash}");
+    println!("The certified table of 512 x 512 in half has BLAKE3 {hash}");
 }
