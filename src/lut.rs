@@ -16,6 +16,7 @@ use crate::brdf::{Diffuse, Fresnel, Microfacet};
 use crate::choice::Choice;
 use crate::error::{Error, Result};
 use crate::integrate::Integrand;
+use crate::integrate::average::DIRECTIONS;
 use crate::numeric::ball::Ball;
 use crate::table::axis::Parameter;
 use crate::table::{Channel, InterfaceText, Provenance};
@@ -116,6 +117,11 @@ impl Lut {
                 Err(Error::bad_input("slices", expected, parameter.word(), cure))
             }
         }
+    }
+
+    /// The directions, about, at which a row's averages take integrals.
+    pub fn averaged_directions(&self) -> usize {
+        self.averaged().len() * DIRECTIONS
     }
 
     /// Whether a texel needs averages over all directions too.

@@ -19,12 +19,13 @@ const SIZES: [usize; 2] = [128, 512];
 /// Turns of a table and its samples.
 const TURNS: usize = 3;
 
-/// The table of a lobe.
-fn request(lut: Lut, size: usize) -> Request {
+/// A table in halves.
+pub fn request(lut: Lut, size: usize) -> Request {
     Request::with_default_axes(lut, (size, size), Precision::F16).unwrap()
 }
 
-fn dfg(lobe: Microfacet) -> Lut {
+/// A and B of a lobe.
+pub fn dfg(lobe: Microfacet) -> Lut {
     Lut::Dfg(Dfg::new(lobe, Fresnel::Schlick, DfgChannels::All).unwrap())
 }
 

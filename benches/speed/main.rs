@@ -16,20 +16,12 @@ use splitsum::compare::study::{Machine, median, timed};
 use splitsum::compare::technique::{Arithmetic, Technique};
 use splitsum::integrate::half_vectors::half_vectors;
 use splitsum::integrate::rule::{Method, Rule};
-use splitsum::lut::{Dfg, DfgChannels, Lut};
-use splitsum::request::Request;
-use splitsum::table::precision::Precision;
 use std::process::Command;
 
 const LOBE: Microfacet = Microfacet { ndf: Ndf::Ggx, masking: Masking::HeightCorrelated };
 
 /// Texels along either edge of the table that every method bakes.
 const SIZE: usize = 512;
-
-fn request(size: usize, precision: Precision) -> Request {
-    let lut = Lut::Dfg(Dfg::new(LOBE, Fresnel::Schlick, DfgChannels::All).unwrap());
-    Request::with_default_axes(lut, (size, size), precision).unwrap()
-}
 
 fn main() {
     let processor = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
@@ -143,7 +135,7 @@ fn devices() {
         println!("No Vulkan device.\n");
         return;
     }
-    let grid = request(SIZE, Precision::F16).grid().clone();
+    let grid = lobes::request(lobes::dfg(LOBE), SIZE).grid().clone();
     println!(
         "| device, 512 x 512 | rule | start ms | bake ms | of which on the device ms | FLOP a \
          texel | GFLOP/s |"
@@ -185,7 +177,7 @@ fn devices() {
 /// The hash of a certified table, the same on every machine.
 fn certified() {
     let backend = Backend::cpu();
-    let baked = splitsum::bake(&request(512, Precision::F16), &backend).unwrap();
+    let baked = splitsum::bake(&lobes::request(lobes::dfg(LOBE), SIZE), &backend).unwrap();
     let hash = baked
         .table
         .claim(0)

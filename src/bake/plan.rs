@@ -5,7 +5,6 @@ use super::{BAND, task};
 use crate::backend::{Backend, Chosen, Gpu};
 use crate::certify::stages;
 use crate::error::{Complaint, Error, Result};
-use crate::integrate::average::DIRECTIONS;
 use crate::integrate::rule::{Method, Rule};
 use crate::lut::Part;
 use crate::request::{Accuracy, Request};
@@ -198,8 +197,7 @@ fn seconds_of_first(request: &Request, part: &Part, rules: &[Rule]) -> f64 {
 /// Points of a slice at which a rule integrates: its texels, and the directions of its averages.
 pub(super) fn points(request: &Request, part: &Part) -> usize {
     let grid = request.grid();
-    let directions = part.averaged().len() * DIRECTIONS;
-    grid.len() + grid.alphas.len() * directions
+    grid.len() + grid.alphas.len() * part.averaged_directions()
 }
 
 /// Bytes in words.

@@ -6,6 +6,7 @@ use crate::brdf::fresnel::{MOST_WEIGHTS, with_basis};
 use crate::brdf::interface::Interface;
 use crate::brdf::{Fresnel, Microfacet};
 use crate::integrate::errors::{Errors, RowErrors};
+use crate::integrate::rule::Rule;
 use crate::integrate::{Integrand, mirror};
 use crate::numeric::ball::Ball;
 use crate::numeric::lanes::vectorised;
@@ -39,7 +40,7 @@ pub(super) struct Decider<'a> {
     /// The bounds of the stage's errors.
     pub errors: Errors,
     /// [`BOTH_SIDES`] times the errors of the [`finest`] of these are added.
-    pub margins: Vec<Errors>,
+    pub margins: &'a [Rule],
     /// Whether mirrors are computed in f64, and err by no more than its arithmetic.
     pub exact_mirrors: bool,
     pub rounds_correctly: bool,
@@ -62,9 +63,14 @@ struct Row<'a> {
     averages: &'a [Ball],
 }
 
-/// The bounds at an α of the finest of these, if it is finer than the row's `own`.
-pub(super) fn finest(margins: &[Errors], own: &RowErrors, alpha: f64) -> Option<RowErrors> {
-    let rows = margins.iter().map(|margin| margin.row(alpha));
+/// The bounds at an α of the finest of these rules, if it is finer than the row's `own`.
+pub(super) fn finest(
+    margins: &[Rule],
+    integrand: Integrand,
+    own: &RowErrors,
+    alpha: f64,
+) -> Option<RowErrors> {
+    let rows = margins.iter().map(|margin| margin.errors(integrand).row(alpha));
     let finest = rows.min_by(|a, b| a.largest().total_cmp(&b.largest()));
     finest.filter(|row| row.largest() < own.largest())
 }
@@ -72,7 +78,8 @@ pub(super) fn finest(margins: &[Errors], own: &RowErrors, alpha: f64) -> Option<
 impl Decider<'_> {
     fn row(&self, row: usize) -> Row<'_> {
         let alpha = self.task.grid.alphas[row];
-        let known = match self.task.lut.integrand() {
+        let integrand = self.task.lut.integrand();
+        let known = match integrand {
             Integrand::Specular(lobe, fresnel) if self.exact_mirrors && alpha == 0.0 => {
                 Some(Known::Mirrors(lobe, fresnel))
             }
@@ -80,7 +87,7 @@ impl Decider<'_> {
             Integrand::Specular(..) | Integrand::Diffuse(_) => None,
         };
         let errors = self.errors.row(alpha);
-        let margin = finest(&self.margins, &errors, alpha);
+        let margin = finest(self.margins, integrand, &errors, alpha);
         Row { known, errors, margin, averages: self.averages.row(row) }
     }
 
@@ -122,24 +129,23 @@ impl Decider<'_> {
         let channels = values.len() / open.len();
         let row = self.row(row);
         let (integrals, _) = integrals.as_chunks::<N>();
-        let mut halves = 0;
+        let mut verdict = Verdict::default();
         if self.rounds_to_halves(&row) && open.iter().all(|&open| open) {
             let (values, _) = values.as_chunks_mut::<N>();
             let (errors, margin) = (&row.errors, row.margin.as_ref());
             vectorised(Halves { errors, margin, integrals, values });
             for (open, values) in open.iter_mut().zip(values) {
                 *open = values.iter().any(|value| value.is_nan());
-                halves += usize::from(!*open);
+                verdict.decided += usize::from(!*open);
             }
         }
         let texels = values.chunks_exact_mut(channels).zip(open).zip(integrals).enumerate();
-        let mut verdict = Verdict::default();
         for (column, ((values, open), integrals)) in texels {
             if *open {
                 verdict = verdict.merge(self.texel_of(&row, column, integrals, values, open));
             }
         }
-        Verdict { decided: verdict.decided + halves, ..verdict }
+        verdict
     }
 
     /// Whether [`Halves`] decides nearly all texels of a row.

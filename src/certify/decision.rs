@@ -2,7 +2,6 @@
 //! whether two stages agree.
 
 use crate::integrate::Field;
-use crate::integrate::average::DIRECTIONS;
 use crate::lut::Part;
 use crate::numeric::ball::Ball;
 use crate::table::grid::Grid;
@@ -29,7 +28,7 @@ impl Task<'_> {
     pub fn points(&self) -> usize {
         let rows = self.grid.alphas.len();
         let texels = if self.lut.depends_on_nov() { self.grid.len() } else { rows };
-        texels + rows * self.lut.averaged().len() * DIRECTIONS
+        texels + rows * self.lut.averaged_directions()
     }
 
     /// Fills in the stored `values` of a texel at n·v = `mu`, from its integrals and its row's

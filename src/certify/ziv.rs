@@ -125,7 +125,7 @@ impl Run<'_> {
             task: self.task,
             averages: &averages,
             errors: rule.device_errors(integrand),
-            margins: margins.iter().map(|margin| margin.errors(integrand)).collect(),
+            margins: &margins,
             exact_mirrors: false,
             rounds_correctly: self.stages.rounds_correctly,
         };
@@ -147,7 +147,7 @@ impl Run<'_> {
             task: self.task,
             averages: &averages,
             errors: baker.rule.errors(integrand),
-            margins: margins.iter().map(|margin| margin.errors(integrand)).collect(),
+            margins: &margins,
             exact_mirrors: true,
             rounds_correctly: self.stages.rounds_correctly,
         };
@@ -293,11 +293,9 @@ impl Run<'_> {
             let own = integrand == self.integrand();
             let baker = if own { baker } else { &Baker::new(integrand, &baker.rule) };
             let errors = baker.rule.errors(integrand);
-            let margins: Vec<Errors> =
-                margins.iter().map(|margin| margin.errors(integrand)).collect();
             for ((values, &row), &alpha) in baker.averages(&alphas).iter().zip(rows).zip(&alphas) {
                 let of_rule = errors.at(alpha, values);
-                let of_margin = finest(&margins, &errors.row(alpha), alpha)
+                let of_margin = finest(margins, integrand, &errors.row(alpha), alpha)
                     .map_or(Default::default(), |margin| margin.of(values));
                 let ball = |(k, &value): (usize, &f64)| {
                     let error = of_rule[k] + AVERAGE_ERROR + BOTH_SIDES * of_margin[k];
