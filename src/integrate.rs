@@ -6,6 +6,7 @@
 //! 2013). On the edge α = 0 they are those of a mirror, whatever n·v.
 
 pub mod average;
+pub mod bent_rings;
 pub mod bounds;
 pub mod costs;
 pub mod double_exponential;

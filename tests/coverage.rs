@@ -9,15 +9,18 @@ use rayon::prelude::*;
 use splitsum::backend::cpu;
 use splitsum::brdf::{Microfacet, Ndf};
 use splitsum::integrate::ScaleBias;
-use splitsum::integrate::rule::{CHARLIE_LIMIT, CHARLIE_UNKNOWN, Rule};
+use splitsum::integrate::rule::{CHARLIE_UNKNOWN, Rule};
 use splitsum::integrate::rules::REFERENCE;
 use splitsum::integrate::rules::{
-    D6144, D10240, L4608, P480, P1024, R456, R1344, R2552, S1440, S2080, S2304, S2432, S2560,
+    B2544, B5920, D6144, D10240, L4608, P480, P1024, R456, R976, R2552, R6080, S1440, S1616, S2016,
+    S2080, S2304, S2560,
 };
 
 /// The rules that decide how values round.
-const STAGES: [Rule; 13] =
-    [S1440, S2304, S2080, S2560, S2432, L4608, P480, P1024, R456, R1344, R2552, D6144, D10240];
+const STAGES: [Rule; 17] = [
+    S1440, S2304, S2080, S2560, S2016, S1616, L4608, P480, P1024, R456, R976, R2552, R6080, B2544,
+    B5920, D6144, D10240,
+];
 
 /// Points in all: 100,000, or what SPLITSUM_COVERAGE says (.ci/run: a million).
 fn points_in_all() -> usize {
@@ -54,12 +57,11 @@ fn points(lobe: Microfacet, count: usize) -> Vec<(f64, f64)> {
                 _ => (edge(u, 8.0), edge(v, 3.01)),
             };
             let least = match lobe.ndf {
-                Ndf::Charlie if lobe.diverges_at_grazing() => CHARLIE_LIMIT,
                 Ndf::Charlie => CHARLIE_UNKNOWN,
                 _ => 0.0,
             };
             let alpha = least + (1.0 - least) * r * r;
-            (if lobe.diverges_at_grazing() { mu.max(1e-4) } else { mu }, alpha)
+            (if lobe.diverges_at_grazing() { mu.max(1e-30) } else { mu }, alpha)
         })
         .collect()
 }

@@ -194,7 +194,11 @@ fn a_lane_holds_the_bits_of_a_single_number() {
     // change a bit.
     for lobe in Microfacet::all() {
         let points = domain_of(lobe, 37);
-        for name in ["h56", "l288", "p480", "r456", "d6144", "s640", "s2080", "s2560", "s2432"] {
+        let names = [
+            "h56", "l288", "p480", "r456", "b2544", "d6144", "s640", "s2080", "s2560", "s2016",
+            "s1616",
+        ];
+        for name in names {
             let rule = Rule::named(name).unwrap();
             if !rule.applies_to(lobe) || (name == "d6144" && lobe.ndf == Ndf::Charlie) {
                 continue;

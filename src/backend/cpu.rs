@@ -241,12 +241,14 @@ fn smooth<const N: usize, B: Basis<N>>(lobe: Microfacet, basis: B, rule: &Rule) 
         Method::LightDirections(rule) => quadrature(lobe, basis, rule.nodes()),
         Method::LightPlanes(rule) => quadrature(lobe, basis, rule.nodes()),
         Method::Rings(rule) => quadrature(lobe, basis, rule.nodes()),
+        Method::BentRings(rule) => quadrature(lobe, basis, rule.nodes()),
         Method::Interpolant(rule) => {
             let source = |source: Source| match source {
                 Source::HalfVectors(rule) => quadrature(lobe, basis, rule.nodes()),
                 Source::LightDirections(rule) => quadrature(lobe, basis, rule.nodes()),
                 Source::LightPlanes(rule) => quadrature(lobe, basis, rule.nodes()),
                 Source::Rings(rule) => quadrature(lobe, basis, rule.nodes()),
+                Source::BentRings(rule) => quadrature(lobe, basis, rule.nodes()),
             };
             let points = rule.points(lobe);
             let pieces = points.iter().zip(rule.pieces);

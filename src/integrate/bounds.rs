@@ -106,9 +106,15 @@ pub struct Columns {
     /// About a ring.
     pub r456: Bound,
     /// About a ring.
-    pub r1344: Bound,
+    pub r976: Bound,
     /// About a ring.
     pub r2552: Bound,
+    /// About a ring.
+    pub r6080: Bound,
+    /// About a ring with a bend.
+    pub b2544: Bound,
+    /// About a ring with a bend.
+    pub b5920: Bound,
     /// Interpolated.
     pub s640: Bound,
     /// Interpolated.
@@ -120,7 +126,9 @@ pub struct Columns {
     /// Interpolated.
     pub s2560: Bound,
     /// Interpolated.
-    pub s2432: Bound,
+    pub s2016: Bound,
+    /// Interpolated.
+    pub s1616: Bound,
     /// Glass.
     pub g112: Bound,
     /// Glass.
@@ -155,8 +163,8 @@ pub const fn columns(lobe: Microfacet, alpha: f64) -> &'static Columns {
         Ndf::Charlie => match lobe.masking {
             _ if alpha >= WIDE_LAYER => &CHARLIE,
             _ if alpha >= CHARLIE_LIMIT => &CHARLIE_BELOW_WIDE_LAYER,
-            Masking::HeightCorrelated => &CHARLIE_FITTED_BELOW_LIMIT,
             _ if alpha >= CHARLIE_UNKNOWN => &CHARLIE_BELOW_LIMIT,
+            Masking::HeightCorrelated => &CHARLIE_FITTED_UNKNOWN_BELOW,
             _ => &CHARLIE_UNKNOWN_BELOW,
         },
     }
@@ -244,11 +252,7 @@ const BLINN_PHONG_IMPLICIT: Columns = Columns { s2560: sharp(4e-9, 5e-9, 3e-10),
 const BLINN_PHONG_IMPLICIT_BEYOND_LIMIT: Columns =
     Columns { s2560: sharp(6e-10, 1e-8, 5e-11), ..BLINN_PHONG_BEYOND_LIMIT };
 
-const CHARLIE: Columns = Columns {
-    r2552: sharp(7e-10, 3e-7, 1e-12),
-    s2432: sharp(8e-9, 7e-7, 1.5e-10),
-    ..CHARLIE_BELOW_WIDE_LAYER
-};
+const CHARLIE: Columns = Columns { ..CHARLIE_BELOW_WIDE_LAYER };
 
 const CHARLIE_BELOW_WIDE_LAYER: Columns = Columns {
     d6144: sharp(5e-7, 1.5e-6, 1e-12),
@@ -266,24 +270,32 @@ const CHARLIE_BELOW_LIMIT: Columns = Columns {
     d6144: NONE,
     d10240: NONE,
     r456: sharp(5e-7, 4e-6, 4e-9),
-    r1344: sharp(8e-9, 2e-6, 1e-12),
-    r2552: sharp(1e-9, 3e-7, 1e-12),
-    s2432: sharp(8e-9, 2e-6, 1e-9),
+    r976: sharp(1.5e-8, 3e-7, 6e-10),
+    r2552: sharp(1e-9, 1.5e-8, 1.2e-10),
+    r6080: sharp(7e-11, 1.5e-8, 4e-12),
+    b2544: sharp(6e-8, 5e-7, 1.2e-9),
+    b5920: sharp(2e-8, 2e-7, 2e-10),
+    s2016: sharp(1.5e-8, 3e-7, 4e-10),
+    s1616: sharp(6e-8, 5e-7, 1.5e-9),
     ..SMOOTH
 };
 
 const CHARLIE_UNKNOWN_BELOW: Columns = Columns {
     r456: NONE,
-    r1344: NONE,
+    r976: NONE,
     r2552: NONE,
-    s2432: NONE,
+    r6080: NONE,
+    b2544: NONE,
+    b5920: NONE,
+    s2016: NONE,
+    s1616: NONE,
     reference: all(2e-6),
     ..CHARLIE_BELOW_LIMIT
 };
 
 /// The fitted Λ is so large at small α that only the far tail of the ring is seen, which falls
 /// faster than the rules over half vectors follow (below roughness 1e-6).
-const CHARLIE_FITTED_BELOW_LIMIT: Columns =
+const CHARLIE_FITTED_UNKNOWN_BELOW: Columns =
     Columns { h640: all(6e-4), h1536: all(2e-4), h6144: all(3e-5), ..CHARLIE_UNKNOWN_BELOW };
 
 /// What the layer of an index of refraction near 1 adds, where reflectance falls from 1 within
@@ -319,14 +331,18 @@ const SMOOTH: Columns = Columns {
     p480: NONE,
     p1024: NONE,
     r456: NONE,
-    r1344: NONE,
+    r976: NONE,
     r2552: NONE,
+    r6080: NONE,
+    b2544: NONE,
+    b5920: NONE,
     s640: NONE,
     s1440: NONE,
     s2304: NONE,
     s2080: NONE,
     s2560: NONE,
-    s2432: NONE,
+    s2016: NONE,
+    s1616: NONE,
     g112: NONE,
     g560: NONE,
     g904: NONE,

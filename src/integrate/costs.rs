@@ -48,6 +48,7 @@ impl Rule {
             Method::LightDirections(rule) => texels * rule.evaluations(),
             Method::LightPlanes(rule) => texels * rule.evaluations(),
             Method::Rings(rule) => texels * rule.evaluations(),
+            Method::BentRings(rule) => texels * rule.evaluations(),
             Method::DoubleExponential(rule) => texels * rule.evaluations(),
             Method::Interpolant(rule) => rule.evaluations(),
             Method::Glass(rule) => texels * rule.evaluations(),
@@ -70,6 +71,7 @@ impl Rule {
             Method::LightDirections(_)
             | Method::LightPlanes(_)
             | Method::Rings(_)
+            | Method::BentRings(_)
             | Method::Interpolant(_)
             | Method::Glass(_)
             | Method::ClosedForm => costs.own,
@@ -80,6 +82,7 @@ impl Rule {
             | Method::LightDirections(_)
             | Method::LightPlanes(_)
             | Method::Rings(_)
+            | Method::BentRings(_)
             | Method::DoubleExponential(_)
             | Method::Glass(_)
             | Method::ClosedForm => 0.0,

@@ -14,6 +14,7 @@
 //! as α → 0; the integrals themselves change over μ ~ 1, which s does not resolve at small α.
 
 mod chebyshev;
+mod follow;
 pub mod map;
 pub mod nodes;
 pub mod norms;
@@ -21,7 +22,9 @@ pub mod norms;
 pub use map::{Layer, Map};
 
 use self::chebyshev::{chebyshev_node, clenshaw, transform, transposed};
+use self::follow::{Follows, Stretch};
 use self::map::Placement;
+use super::bent_rings::BentRingRule;
 use super::half_vectors::HalfVectorRule;
 use super::light_directions::LightDirectionRule;
 use super::light_planes::LightPlaneRule;
@@ -48,6 +51,8 @@ pub struct InterpolantRule {
     pub pieces: &'static [Piece],
     /// The distributions that it was made for.
     pub distributions: &'static [Ndf],
+    /// Whether it was made for the lobe whose albedo diverges at grazing, or for the others.
+    pub diverging: bool,
     /// What is subtracted from E before it is followed.
     pub beyond: Beyond,
 }
@@ -55,9 +60,9 @@ pub struct InterpolantRule {
 /// What is subtracted from E before a polynomial follows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beyond {
-    /// Nothing: one polynomial follows E, even over a jump.
+    /// Nothing.
     Nothing,
-    /// E(α → 0), and where the masking term jumps one polynomial on either side.
+    /// E(α → 0).
     Limit,
 }
 
@@ -66,10 +71,12 @@ pub enum Beyond {
 pub struct Piece {
     /// The perceptual roughness at which it ends, where the next begins.
     pub end: f64,
-    /// Nodes along s; a multiple of twice the lanes of [`F64x8`]. As many on either side of a jump.
+    /// Nodes along s; a multiple of the lanes of [`F64x8`]. As many on either side of a break.
     pub directions: usize,
     /// Nodes along √r; even.
     pub roughnesses: usize,
+    /// Whether one polynomial spans n·v on either side of a break of the masking term.
+    pub apart: bool,
     /// s
     pub map: Map,
     /// The rule that integrates at the nodes.
@@ -87,23 +94,25 @@ pub enum Source {
     LightPlanes(LightPlaneRule),
     /// About a ring.
     Rings(RingRule),
+    /// About a ring, with a bend of the masking term.
+    BentRings(BentRingRule),
 }
 
 /// Polynomials in s and √r, as Chebyshev coefficients: of E, then of the rests of the other
 /// integrals.
 #[derive(Clone, Debug)]
 pub struct Interpolant<const N: usize> {
-    follows: Follows,
     pieces: Vec<Fit<N>>,
 }
 
 /// The polynomials of a piece.
 #[derive(Clone, Debug)]
 struct Fit<const N: usize> {
+    follows: Follows,
     piece: Piece,
     /// √r at its ends.
     roots: [f64; 2],
-    /// On either side of the jump if there is one: for each power of √r the coefficients in s,
+    /// On either side of a break where they are apart: for each power of √r the coefficients in s,
     /// eight powers of s to a group.
     sides: Vec<Vec<Vec<[F64x8; N]>>>,
 }
@@ -112,60 +121,22 @@ struct Fit<const N: usize> {
 #[derive(Clone, Debug)]
 pub struct InterpolantRow<const N: usize> {
     follows: Follows,
+    alpha: f64,
     place: Placement,
-    /// n·v of the jump; 0 where there is none.
-    jump: f64,
-    /// Where each of the polynomials begins in s, and the inverse of its length; its coefficients.
-    sides: Vec<(f64, f64, Vec<[f64; N]>)>,
-}
-
-/// What the polynomials follow.
-#[derive(Clone, Copy, Debug)]
-struct Follows {
-    lobe: Microfacet,
-    beyond: Beyond,
-}
-
-impl Follows {
-    /// n·v of the jump at an α, if the polynomials are apart there.
-    fn jump(self, alpha: f64) -> Option<f64> {
-        self.lobe.break_at(alpha).filter(|_| self.sides() == 2)
-    }
-
-    /// The number of polynomials over n·v.
-    fn sides(self) -> usize {
-        1 + usize::from(self.beyond == Beyond::Limit && self.lobe.jumps())
-    }
-
-    /// The ends in s of each of them at an α.
-    fn intervals(self, place: &Placement, alpha: f64) -> Vec<[f64; 2]> {
-        match self.jump(alpha) {
-            None => vec![[0.0, 1.0]],
-            Some(mu) => {
-                let at = place.of(mu);
-                vec![[0.0, at], [at, 1.0]]
-            }
-        }
-    }
-
-    /// What is subtracted from E.
-    #[inline(always)]
-    fn limit<R: Real>(self, mu: R) -> R {
-        match self.beyond {
-            Beyond::Nothing => R::from(0.0),
-            Beyond::Limit => self.lobe.smooth_limit(mu),
-        }
-    }
+    /// n·v of the break; 0 where there is none.
+    between: f64,
+    /// What each of the polynomials spans, and its coefficients.
+    sides: Vec<(Stretch, Vec<[f64; N]>)>,
 }
 
 impl InterpolantRule {
-    /// The number of integrals that it takes, of a lobe without a jump.
+    /// The number of integrals that it takes, of a lobe without a break.
     #[allow(clippy::len_without_is_empty, reason = "a rule always has nodes")]
     pub fn len(&self) -> usize {
         self.pieces.iter().map(|piece| piece.directions * piece.roughnesses).sum()
     }
 
-    /// Evaluations of the integrand, of a lobe without a jump.
+    /// Evaluations of the integrand, of a lobe without a break.
     pub fn evaluations(&self) -> usize {
         let of = |piece: &Piece| piece.directions * piece.roughnesses * piece.source.evaluations();
         self.pieces.iter().map(of).sum()
@@ -188,11 +159,15 @@ impl InterpolantRule {
         self.pieces.iter().copied().zip(starts.zip(ends).map(|(start, end)| [start, end]))
     }
 
-    /// The (n·v, α) of the nodes of each piece for a lobe, n·v varying fastest, a side of the jump
+    fn follows(&self, lobe: Microfacet, piece: &Piece) -> Follows {
+        Follows { lobe, beyond: self.beyond, apart: piece.apart }
+    }
+
+    /// The (n·v, α) of the nodes of each piece for a lobe, n·v varying fastest, a side of a break
     /// after the other.
     pub fn points(&self, lobe: Microfacet) -> Vec<Vec<(f64, f64)>> {
-        let follows = Follows { lobe, beyond: self.beyond };
-        self.pieces().map(|(piece, roots)| piece.points(follows, roots)).collect()
+        let points = |(piece, roots): (Piece, _)| piece.points(self.follows(lobe, &piece), roots);
+        self.pieces().map(points).collect()
     }
 
     /// The interpolant through these integrals at the rule's points, a field for each piece.
@@ -202,13 +177,12 @@ impl InterpolantRule {
         basis: B,
         integrals: &[Field],
     ) -> Interpolant<N> {
-        let follows = Follows { lobe, beyond: self.beyond };
-        let fits = self.pieces().zip(integrals).map(|((piece, roots), integrals)| Fit {
-            piece,
-            roots,
-            sides: piece.fit(follows, basis, &piece.points(follows, roots), integrals),
+        let fits = self.pieces().zip(integrals).map(|((piece, roots), integrals)| {
+            let follows = self.follows(lobe, &piece);
+            let sides = piece.fit(follows, basis, &piece.points(follows, roots), integrals);
+            Fit { follows, piece, roots, sides }
         });
-        Interpolant { follows, pieces: fits.collect() }
+        Interpolant { pieces: fits.collect() }
     }
 }
 
@@ -220,6 +194,7 @@ impl Source {
             Source::LightDirections(rule) => rule.evaluations(),
             Source::LightPlanes(rule) => rule.evaluations(),
             Source::Rings(rule) => rule.evaluations(),
+            Source::BentRings(rule) => rule.evaluations(),
         }
     }
 }
@@ -236,9 +211,9 @@ impl Piece {
         for side in 0..sides {
             for &alpha in &alphas {
                 let place = self.map.at(alpha);
-                let [from, to] = follows.intervals(&place, alpha)[side];
-                let node = |i| from + (to - from) * chebyshev_node(i, self.directions);
-                points.extend((0..self.directions).map(|i| (place.inverse(node(i)), alpha)));
+                let stretch = follows.stretches(&place, alpha)[side];
+                let node = |i| stretch.inverse(&place, chebyshev_node(i, self.directions));
+                points.extend((0..self.directions).map(|i| (node(i), alpha)));
             }
         }
         points
@@ -256,7 +231,7 @@ impl Piece {
         let followed: Vec<[f64; N]> = integrals
             .iter()
             .zip(points)
-            .map(|(integrals, &(mu, _))| follow(follows, basis, mu, integrals))
+            .map(|(integrals, &point)| follows.follow(basis, point, integrals))
             .collect();
         let side = |followed: &[[f64; N]]| {
             let parts: [Vec<f64>; N] =
@@ -281,36 +256,6 @@ impl Piece {
     }
 }
 
-/// E less [`Follows::limit`], and the rests of the integrals, at n·v = `mu`.
-fn follow<const N: usize, B: Basis<N>>(
-    follows: Follows,
-    basis: B,
-    mu: f64,
-    integrals: &[f64],
-) -> [f64; N] {
-    let e: f64 = integrals.iter().take(2).sum();
-    let weights = basis.weights(mu);
-    from_fn(|k| if k == 0 { e - follows.limit(mu) } else { integrals[k] - weights[k] * e })
-}
-
-/// The inverse of [`follow`].
-#[inline(always)]
-fn unfollow<const N: usize, B: Basis<N>, R: Real>(
-    follows: Follows,
-    basis: B,
-    mu: R,
-    followed: [R; N],
-) -> Integrals<N, R> {
-    let weights = basis.weights(mu);
-    let e = followed[0] + follows.limit(mu);
-    let mut integrals = Integrals::zero();
-    for k in 1..N {
-        integrals.0[k] = followed[k] + weights[k] * e;
-    }
-    integrals.0[0] = e - integrals.0[1];
-    integrals
-}
-
 impl<const N: usize> Interpolant<N> {
     /// The polynomials at one `alpha` in the rule's domain.
     #[inline(always)]
@@ -318,18 +263,17 @@ impl<const N: usize> Interpolant<N> {
         let root = alpha.sqrt().sqrt();
         let last = self.pieces.len() - 1;
         let piece = self.pieces[..last].partition_point(|fit| fit.roots[1] < root);
-        let Fit { piece, roots: [start, end], sides } = &self.pieces[piece];
+        let Fit { follows, piece, roots: [start, end], sides } = &self.pieces[piece];
         debug_assert!((start - 1e-9..=1.0).contains(&root), "{alpha}");
         let x = F64x8::from(2.0 * (root - start) / (end - start) - 1.0);
         let place = piece.map.at(alpha);
-        let intervals = self.follows.intervals(&place, alpha).into_iter().zip(sides);
+        let stretches = follows.stretches(&place, alpha).into_iter().zip(sides);
         InterpolantRow {
-            follows: self.follows,
+            follows: *follows,
+            alpha,
             place,
-            jump: self.follows.jump(alpha).unwrap_or(0.0),
-            sides: intervals
-                .map(|([from, to], side)| (from, 1.0 / (to - from), coefficients_at(side, x)))
-                .collect(),
+            between: follows.break_at(alpha).unwrap_or(0.0),
+            sides: stretches.map(|(stretch, side)| (stretch, coefficients_at(side, x))).collect(),
         }
     }
 }
@@ -339,10 +283,11 @@ impl<const N: usize> Interpolant<N> {
 fn coefficients_at<const N: usize>(side: &[Vec<[F64x8; N]>], x: F64x8) -> Vec<[f64; N]> {
     let groups = side[0].len();
     let mut coefficients = vec![[0.0; N]; groups * LANES];
-    for (pair, coefficients) in coefficients.chunks_exact_mut(2 * LANES).enumerate() {
-        let of = |row: &Vec<[F64x8; N]>| [row[2 * pair], row[2 * pair + 1]];
-        let groups = clenshaw(side, [x; 2], of);
-        for (coefficients, group) in coefficients.chunks_exact_mut(LANES).zip(&groups) {
+    for (pair, coefficients) in coefficients.chunks_mut(2 * LANES).enumerate() {
+        let second = (2 * pair + 1).min(groups - 1);
+        let of = |row: &Vec<[F64x8; N]>| [row[2 * pair], row[second]];
+        let pair = clenshaw(side, [x; 2], of);
+        for (coefficients, group) in coefficients.chunks_exact_mut(LANES).zip(&pair) {
             for (i, coefficients) in coefficients.iter_mut().enumerate() {
                 for k in 0..N {
                     coefficients[k] = group[k].0[i];
@@ -358,28 +303,30 @@ impl<const N: usize> InterpolantRow<N> {
     #[inline(always)]
     pub fn at<B: Basis<N>, R: Real>(&self, basis: B, mu: [R; 2]) -> [Integrals<N, R>; 2] {
         let s = mu.map(|mu| self.place.of(mu));
-        let mut followed = side_at(&self.sides[0], s);
-        // On the jump itself the term is what it is beyond.
+        let mut followed = side_at(&self.sides[0], mu, s);
+        // On the break itself the term is what it is beyond.
         if let Some(beyond) = self.sides.get(1) {
-            let beyond = side_at(beyond, s);
+            let beyond = side_at(beyond, mu, s);
             for i in 0..2 {
                 for k in 0..N {
                     followed[i][k] =
-                        mu[i].select_below(R::from(self.jump), followed[i][k], beyond[i][k]);
+                        mu[i].select_below(R::from(self.between), followed[i][k], beyond[i][k]);
                 }
             }
         }
         let [first, second] = followed;
-        [unfollow(self.follows, basis, mu[0], first), unfollow(self.follows, basis, mu[1], second)]
+        let unfollow = |mu, followed| self.follows.unfollow(basis, mu, self.alpha, followed);
+        [unfollow(mu[0], first), unfollow(mu[1], second)]
     }
 }
 
-/// The polynomials of one side at these s.
+/// The polynomials of one side at these n·v, whose places along s are given.
 #[inline(always)]
 fn side_at<const N: usize, R: Real>(
-    (from, inverse_length, coefficients): &(f64, f64, Vec<[f64; N]>),
+    (stretch, coefficients): &(Stretch, Vec<[f64; N]>),
+    mu: [R; 2],
     s: [R; 2],
 ) -> [[R; N]; 2] {
-    let x = s.map(|s| (s - *from) * (2.0 * inverse_length) - 1.0);
+    let x = from_fn(|i| stretch.of(mu[i], s[i]) * 2.0 - 1.0);
     clenshaw(coefficients, x, |c: &[f64; N]| [c.map(R::from); 2])
 }

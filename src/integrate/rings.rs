@@ -56,14 +56,18 @@ impl RingRule {
     pub fn nodes(&self) -> RingNodes {
         // u² twice: the layer at the horizon is a logarithm at n·v = 0.
         let radial = crowded(crowded(gauss_legendre(self.radial)));
-        let mirrored = |node: Node| Node { at: 1.0 - node.at, ..node };
         RingNodes {
             radial,
-            azimuth: crowded(gauss_legendre(self.azimuth)).into_iter().map(mirrored).collect(),
+            azimuth: mirrored(crowded(gauss_legendre(self.azimuth))),
             radial_full: crowded(gauss_legendre(self.radial_full)),
             azimuth_full: midpoints(self.azimuth_full),
         }
     }
+}
+
+/// The same nodes in the variable 1 - u.
+pub(super) fn mirrored(nodes: Vec<Node>) -> Vec<Node> {
+    nodes.into_iter().map(|node| Node { at: 1.0 - node.at, ..node }).collect()
 }
 
 impl Kernel for RingNodes {
@@ -78,16 +82,14 @@ impl Kernel for RingNodes {
     ) -> Integrals<N, R> {
         // No other lobe need be compiled.
         let lobe = Microfacet { ndf: Ndf::Charlie, ..lobe };
-        let (zero, one) = (R::from(0.0), R::from(1.0));
+        let one = R::from(1.0);
         let sv = (mu.complement() * (mu + 1.0)).sqrt();
         // sin(ε/2) and cos(ε/2); the former by μ, since 1 - sv cancels.
         let large = ((sv + 1.0) * 0.5).sqrt();
         let small = mu / (large * 2.0);
         let (first, full) = (small / (large + 1.0), large / (small + 1.0));
-        // (cos β)^(1/α) falls to exp(-TAIL_DEPTH) of what it is at the start.
-        let rest2 = large * large * exponential(alpha * (-2.0 * TAIL_DEPTH));
-        let end = ((rest2.complement().max(zero)).sqrt() / (rest2.sqrt() + 1.0)).min(one);
-        let lobe = Lobe { lobe, view: View::new(lobe, basis, mu, alpha), mu, sv, alpha };
+        let end = tail_end(large, alpha);
+        let lobe = Lobe::new(lobe, basis, mu, sv, alpha);
         let (cut_end, full_end) = (full.min(end), end.max(full));
         let (mut cut, mut whole) = (Integrals::zero(), Integrals::zero());
         let (length, full_length) = (cut_end - first, full_end - full);
@@ -110,20 +112,36 @@ impl Kernel for RingNodes {
     }
 }
 
+/// The q where (cos β)^(1/α) has fallen to exp(-TAIL_DEPTH) of what it is at the start, whose cos β
+/// is `large`.
+#[inline(always)]
+pub(super) fn tail_end<R: Real>(large: R, alpha: R) -> R {
+    let rest2 = large * large * exponential(alpha * (-2.0 * TAIL_DEPTH));
+    (rest2.complement().max(R::from(0.0)).sqrt() / (rest2.sqrt() + 1.0)).min(R::from(1.0))
+}
+
+/// The lobe as seen from one direction.
 #[derive(Clone, Copy)]
-struct Lobe<B, R> {
+pub(super) struct Lobe<B, R> {
     lobe: Microfacet,
-    view: View<B, R>,
+    /// What is the same for all half vectors.
+    pub view: View<B, R>,
     mu: R,
     sv: R,
     alpha: R,
 }
 
 impl<B, R: Real> Lobe<B, R> {
+    /// From n·v = `mu`, `sv` being sin θ_v.
+    #[inline(always)]
+    pub fn new(lobe: Microfacet, basis: B, mu: R, sv: R, alpha: R) -> Self {
+        Lobe { lobe, view: View::new(lobe, basis, mu, alpha), mu, sv, alpha }
+    }
+
     /// The half vectors of one q, and the weight of their circle: D cos β (dβ/dq)/n·h, the factor
     /// 1/n·h being that of v·h. `rest` is 1 - q.
     #[inline(always)]
-    fn ring(&self, q: R, rest: R) -> (Ring<R>, R) {
+    pub fn ring(&self, q: R, rest: R) -> (Ring<R>, R) {
         let Lobe { lobe, mu, sv, alpha, .. } = *self;
         let r = (q * q + 1.0).recip();
         // n·h and cos β

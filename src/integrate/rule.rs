@@ -3,6 +3,7 @@
 pub use super::bounds::{CHARLIE_LIMIT, CHARLIE_UNKNOWN, MARGIN};
 
 use super::Integrand;
+use super::bent_rings::BentRingRule;
 use super::bounds::{Bound, Columns};
 use super::double_exponential::DoubleExponentialRule;
 use super::glass::GlassRule;
@@ -24,9 +25,11 @@ pub enum Method {
     LightPlanes(LightPlaneRule),
     /// Over half vectors about a ring at the horizon: Charlie, CPU.
     Rings(RingRule),
+    /// The same with a bend of the masking term: Charlie with its fitted term, CPU.
+    BentRings(BentRingRule),
     /// Double exponential: any lobe, CPU.
     DoubleExponential(DoubleExponentialRule),
-    /// Interpolated between integrals: every lobe but Charlie with its fitted term, CPU.
+    /// Interpolated between integrals: every lobe, CPU.
     Interpolant(InterpolantRule),
     /// Over half vectors with pieces at the critical angle: glass, CPU and device.
     Glass(GlassRule),
@@ -62,6 +65,7 @@ impl Rule {
             Method::LightDirections(_)
             | Method::LightPlanes(_)
             | Method::Rings(_)
+            | Method::BentRings(_)
             | Method::DoubleExponential(_)
             | Method::Interpolant(_)
             | Method::ClosedForm => false,
@@ -84,10 +88,12 @@ impl Rule {
                 ends_like_gaussian(lobe.ndf) && fresnel.definition().smooth_complement
             }
             (Method::Rings(_), Integrand::Specular(lobe, fresnel)) => {
-                // The term that Charlie was fitted with has a power of n·l, which none resolves.
                 lobe.ndf == Ndf::Charlie
                     && !lobe.diverges_at_grazing()
                     && fresnel.definition().smooth_complement
+            }
+            (Method::BentRings(_), Integrand::Specular(lobe, fresnel)) => {
+                lobe.diverges_at_grazing() && fresnel.definition().smooth_complement
             }
             (Method::Interpolant(rule), Integrand::Specular(lobe, fresnel)) => {
                 interpolant_serves(&rule, lobe) && fresnel.definition().smooth_complement
@@ -115,11 +121,11 @@ fn ends_like_gaussian(ndf: Ndf) -> bool {
 }
 
 /// Interpolants of E itself, not of what it is beyond a mirror's, do not follow the implicit term,
-/// whose albedo falls with μ². The term that Charlie was fitted with lets its albedo grow like 1/μ.
+/// whose albedo falls with μ².
 fn interpolant_serves(rule: &InterpolantRule, lobe: Microfacet) -> bool {
     rule.distributions.contains(&lobe.ndf)
         && (rule.beyond == Beyond::Limit || lobe.masking != Masking::Implicit)
-        && !lobe.diverges_at_grazing()
+        && rule.diverging == lobe.diverges_at_grazing()
 }
 
 /// The other rules take every term that depends on n·l and n·v alone: the double exponential ones

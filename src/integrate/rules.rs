@@ -1,13 +1,14 @@
 //! All rules: names and numbers of nodes. Their bounds stand in [`super::bounds`], one column for
 //! each.
 
+use super::bent_rings::BentRingRule;
 use super::bounds::{Bound, Columns, NONE, all};
 use super::double_exponential::DoubleExponentialRule;
 use super::glass::{Counts, GlassRule};
 use super::half_vectors::HalfVectorRule;
 use super::interpolant::InterpolantRule;
 use super::interpolant::nodes::{
-    S640_NODES, S1440_NODES, S2080_NODES, S2304_NODES, S2432_NODES, S2560_NODES,
+    S640_NODES, S1440_NODES, S1616_NODES, S2016_NODES, S2080_NODES, S2304_NODES, S2560_NODES,
 };
 use super::light_directions::LightDirectionRule;
 use super::light_planes::LightPlaneRule;
@@ -133,10 +134,21 @@ pub const P1024: Rule = light_planes("p1024", [64, 16], |bounds| bounds.p1024);
 
 /// About a ring, the cheapest.
 pub const R456: Rule = ring("r456", ring_nodes([24, 16, 12, 6]), |bounds| bounds.r456);
-/// About a ring; [`S2432`] takes its integrals.
-pub const R1344: Rule = ring("r1344", R1344_NODES, |bounds| bounds.r1344);
-/// About a ring, the finest.
+/// About a ring; [`S2016`] takes its integrals.
+pub const R976: Rule = ring("r976", R976_NODES, |bounds| bounds.r976);
+/// About a ring.
 pub const R2552: Rule = ring("r2552", ring_nodes([56, 42, 20, 10]), |bounds| bounds.r2552);
+/// About a ring, the finest.
+pub const R6080: Rule = ring("r6080", ring_nodes([88, 64, 28, 16]), |bounds| bounds.r6080);
+
+/// About a ring with a bend; [`S1616`] takes its integrals.
+pub const B2544: Rule = bent_ring("b2544", B2544_NODES, |bounds| bounds.b2544);
+/// About a ring with a bend, the finest.
+pub const B5920: Rule = bent_ring(
+    "b5920",
+    BentRingRule { first: [56, 42], middle: [32, 20, 32], last: [20, 12] },
+    |bounds| bounds.b5920,
+);
 
 /// Interpolated, the cheapest for GGX.
 pub const S640: Rule = interpolant("s640", S640_NODES, |bounds| bounds.s640);
@@ -149,14 +161,17 @@ pub const S2080: Rule = interpolant("s2080", S2080_NODES, |bounds| bounds.s2080)
 /// Interpolated in pieces, for Blinn-Phong: the first stage of certification.
 pub const S2560: Rule = interpolant("s2560", S2560_NODES, |bounds| bounds.s2560);
 /// Interpolated in pieces, for Charlie: the first stage of certification.
-pub const S2432: Rule = interpolant("s2432", S2432_NODES, |bounds| bounds.s2432);
+pub const S2016: Rule = interpolant("s2016", S2016_NODES, |bounds| bounds.s2016);
+/// Interpolated in pieces, for Charlie with its fitted term: the first stage of certification.
+pub const S1616: Rule = interpolant("s1616", S1616_NODES, |bounds| bounds.s1616);
 
 /// What decides the values that a first rule leaves undecided, in this order: of those that apply,
 /// rules that are finer on some rows than all before.
-pub const FINER: [Rule; 8] = [G904, G4536, L4608, P1024, R2552, D10240, REFERENCE, CLOSED_FORM];
+pub const FINER: [Rule; 10] =
+    [G904, G4536, L4608, P1024, R2552, R6080, B5920, D10240, REFERENCE, CLOSED_FORM];
 
 /// Every rule.
-pub const RULES: [Rule; 29] = [
+pub const RULES: [Rule; 33] = [
     CLOSED_FORM,
     H56,
     H130,
@@ -173,14 +188,18 @@ pub const RULES: [Rule; 29] = [
     P480,
     P1024,
     R456,
-    R1344,
+    R976,
     R2552,
+    R6080,
+    B2544,
+    B5920,
     S640,
     S1440,
     S2304,
     S2080,
     S2560,
-    S2432,
+    S2016,
+    S1616,
     G112,
     G560,
     G904,
@@ -201,8 +220,11 @@ pub const L512_NODES: LightDirectionRule =
 pub const L4608_NODES: LightDirectionRule =
     LightDirectionRule { slope: 96, azimuth: 48, power: Power::Four };
 
-/// The nodes of [`R1344`].
-pub const R1344_NODES: RingRule = ring_nodes([40, 30, 16, 9]);
+/// The nodes of [`R976`].
+pub const R976_NODES: RingRule = ring_nodes([36, 24, 14, 8]);
+/// The nodes of [`B2544`].
+pub const B2544_NODES: BentRingRule =
+    BentRingRule { first: [36, 24], middle: [24, 16, 16], last: [16, 9] };
 
 type Column = fn(&Columns) -> Bound;
 
@@ -230,6 +252,10 @@ const fn ring(name: &'static str, nodes: RingRule, column: Column) -> Rule {
 const fn ring_nodes(counts: [usize; 4]) -> RingRule {
     let [radial, azimuth, radial_full, azimuth_full] = counts;
     RingRule { radial, azimuth, radial_full, azimuth_full }
+}
+
+const fn bent_ring(name: &'static str, nodes: BentRingRule, column: Column) -> Rule {
+    rule(name, Method::BentRings(nodes), column)
 }
 
 const fn double_exponential(

@@ -94,6 +94,7 @@ impl Integrator {
             Method::LightDirections(rule) => single(rule.nodes()),
             Method::LightPlanes(rule) => single(rule.nodes()),
             Method::Rings(rule) => single(rule.nodes()),
+            Method::BentRings(rule) => single(rule.nodes()),
             Method::DoubleExponential(rule) => single(rule.nodes()),
             Method::Interpolant(_) => Box::new(move |lobe, mu, alpha| {
                 cpu::bake_points(lobe, &[(mu, alpha)], &rule).scale_bias()[0].array()

@@ -32,6 +32,7 @@ impl Glass {
             | Method::LightDirections(_)
             | Method::LightPlanes(_)
             | Method::Rings(_)
+            | Method::BentRings(_)
             | Method::Interpolant(_)
             | Method::ClosedForm => Nodes::AboutView(about_view(interface, REFERENCE_NODES)),
         };

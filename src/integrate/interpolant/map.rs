@@ -11,6 +11,8 @@ pub struct Map {
     pub power: u32,
     /// The layer.
     pub layer: Layer,
+    /// The y at which s is 1 where that lies before μ = 1: beyond there is nothing to follow.
+    pub cut: f64,
 }
 
 /// A length of n·v.
@@ -28,7 +30,7 @@ pub(super) struct Placement {
     map: Map,
     /// 1/layer
     steepness: f64,
-    /// tanh(asinh(y)/c) at μ = 1.
+    /// tanh(asinh(y)/c) at s = 1.
     end: f64,
 }
 
@@ -48,7 +50,7 @@ impl Map {
             Layer::Alpha(times) => 1.0 / (times * alpha),
             Layer::RootAlpha(times) => 1.0 / (times * alpha.sqrt()),
         };
-        Placement { map: self, steepness, end: self.compressed(steepness) }
+        Placement { map: self, steepness, end: self.compressed(steepness.min(self.cut)) }
     }
 }
 
@@ -56,7 +58,7 @@ impl Placement {
     /// s
     #[inline(always)]
     pub fn of<R: Real>(&self, mu: R) -> R {
-        let mut s = self.map.compressed(mu * self.steepness) / self.end;
+        let mut s = (self.map.compressed(mu * self.steepness) / self.end).min(R::from(1.0));
         for _ in 0..self.map.power {
             s = s.sqrt();
         }

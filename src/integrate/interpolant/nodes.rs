@@ -1,5 +1,5 @@
 //! The nodes of the interpolants. But for s640 and s2304, maps and pieces are those that reach 1e-7
-//! in E and 2e-9 in the rests (5e-10 in both for Charlie) with the fewest nodes, of some ten maps
+//! in E and 2e-9 in the rests with the fewest nodes, of some ten maps
 //! that were tried for each distribution.
 
 use super::{Beyond, InterpolantRule, Layer, Map, Piece, SMOOTHEST, Source};
@@ -7,15 +7,16 @@ use crate::brdf::Ndf;
 use crate::integrate::half_vectors::HalfVectorRule;
 use crate::integrate::light_directions::LightDirectionRule;
 use crate::integrate::light_planes::LightPlaneRule;
-use crate::integrate::rules::{L512_NODES, L4608_NODES, R1344_NODES};
+use crate::integrate::rings::RingRule;
+use crate::integrate::rules::{B2544_NODES, L512_NODES, L4608_NODES, R976_NODES};
 use crate::numeric::quadrature::slope_map::Power;
 
 const fn map([compression, power]: [u32; 2], layer: Layer) -> Map {
-    Map { compression, power, layer }
+    Map { compression, power, layer, cut: f64::INFINITY }
 }
 
 const fn piece(end: f64, [directions, roughnesses]: [usize; 2], map: Map, source: Source) -> Piece {
-    Piece { end, directions, roughnesses, map, source }
+    Piece { end, directions, roughnesses, apart: true, map, source }
 }
 
 /// Of E beyond its limit.
@@ -24,7 +25,9 @@ const fn of(
     below: Source,
     pieces: &'static [Piece],
 ) -> InterpolantRule {
-    InterpolantRule { start: SMOOTHEST, below, pieces, distributions, beyond: Beyond::Limit }
+    let start = SMOOTHEST;
+    let beyond = Beyond::Limit;
+    InterpolantRule { start, below, pieces, distributions, diverging: false, beyond }
 }
 
 /// Of E itself.
@@ -44,7 +47,10 @@ const H2304: Source = Source::HalfVectors(HalfVectorRule {
     azimuth_horizon: 24,
     power: Power::Four,
 });
-const R1344: Source = Source::Rings(R1344_NODES);
+const R976: Source = Source::Rings(R976_NODES);
+const R1344: Source =
+    Source::Rings(RingRule { radial: 40, azimuth: 30, radial_full: 16, azimuth_full: 9 });
+const B2544: Source = Source::BentRings(B2544_NODES);
 
 /// tanh(asinh(μ/α)/8)^½
 const FEW: Map = map([3, 1], Layer::Alpha(1.0));
@@ -54,8 +60,12 @@ const SOME: Map = map([3, 2], Layer::Alpha(4.0));
 const MANY: Map = map([4, 2], Layer::Alpha(1.0));
 /// tanh(asinh(μ/2α)/4): a Gaussian leaves no term μ ln μ to resolve but where the lobe is wide.
 const GAUSSIAN: Map = map([2, 0], Layer::Alpha(2.0));
-/// tanh(asinh(μ/4√α)/8)^¼
-const RING: Map = map([3, 2], Layer::RootAlpha(4.0));
+/// tanh(asinh(μ/8√α)/8)^¼
+const RING: Map = map([3, 2], Layer::RootAlpha(8.0));
+/// The same up to μ = 16√α, where an albedo is 1e-14 of what it is at μ = 0.
+const NARROW_RING: Map = Map { cut: 2.0, ..RING };
+/// The roughness up to which that is less than 1.
+const NARROW: f64 = 0.0625;
 
 /// The nodes of `s640`.
 pub const S640_NODES: InterpolantRule = whole(L512, &[piece(1.0, [32, 20], FEW, L512)]);
@@ -88,17 +98,29 @@ pub const S2560_NODES: InterpolantRule = of(
     ],
 );
 
-/// The nodes of `s2432`.
-pub const S2432_NODES: InterpolantRule = InterpolantRule {
-    // Below, a table has few rows and most of their values are 0.
-    start: 0.03,
+/// The nodes of `s2016`.
+pub const S2016_NODES: InterpolantRule = of(
+    &[Ndf::Charlie],
+    R976,
+    &[
+        piece(NARROW, [56, 12], NARROW_RING, R976),
+        piece(0.3, [56, 16], RING, R976),
+        piece(1.0, [32, 14], RING, R1344),
+    ],
+);
+
+/// The nodes of `s1616`. On smooth rows next to nothing is seen from above the bend.
+pub const S1616_NODES: InterpolantRule = InterpolantRule {
+    // Below, the factor of the integrals, 1/√α, is that of the error too where n·v is large.
+    start: 0.01,
+    diverging: true,
     ..of(
         &[Ndf::Charlie],
-        R1344,
+        B2544,
         &[
-            piece(0.1, [64, 16], RING, R1344),
-            piece(0.4, [48, 20], RING, R1344),
-            piece(1.0, [32, 14], RING, R1344),
+            Piece { apart: false, ..piece(0.05, [64, 12], NARROW_RING, R976) },
+            piece(0.3, [32, 16], RING, B2544),
+            piece(1.0, [24, 14], RING, B2544),
         ],
     )
 };

@@ -3,7 +3,8 @@
 
 use crate::integrate::Integrand;
 use crate::integrate::bounds::{BLINN_PHONG_LIMIT, CHARLIE_LIMIT, WIDE_LAYER};
-use crate::integrate::interpolant::SMOOTHEST;
+use crate::integrate::rule::Method;
+use crate::integrate::rules::RULES;
 use crate::units::{LARGEST_ALPHA, SMALLEST_ALPHA, SMALLEST_COSINE};
 
 /// A point of the domain.
@@ -133,7 +134,7 @@ impl Places {
             5 => self.within(crowded.alpha.sqrt() * few, crowded.alpha),
             6 => self.within(1.0 - (crowded.alpha * few) * (crowded.alpha * few), crowded.alpha),
             _ => {
-                let limits = [CHARLIE_LIMIT, WIDE_LAYER, BLINN_PHONG_LIMIT, SMOOTHEST * SMOOTHEST];
+                let limits = limits();
                 let limit = limits[(r * limits.len() as f64) as usize % limits.len()];
                 let off = libm::exp10(self.random.between(-12.0, -1.0));
                 self.within(crowded.mu, limit * (1.0 + off.copysign(u - 0.5)))
@@ -173,4 +174,16 @@ impl Random {
     fn between(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * self.next()
     }
+}
+
+/// The α at which bounds change, and those at the ends of the pieces of interpolants.
+fn limits() -> Vec<f64> {
+    let mut limits = vec![CHARLIE_LIMIT, WIDE_LAYER, BLINN_PHONG_LIMIT];
+    for rule in RULES {
+        if let Method::Interpolant(rule) = rule.method {
+            let ends = rule.pieces.iter().map(|piece| piece.end);
+            limits.extend(ends.chain([rule.start]).map(|roughness| roughness * roughness));
+        }
+    }
+    limits
 }
