@@ -252,7 +252,7 @@ const BLINN_PHONG_IMPLICIT: Columns = Columns { s2560: sharp(4e-9, 5e-9, 3e-10),
 const BLINN_PHONG_IMPLICIT_BEYOND_LIMIT: Columns =
     Columns { s2560: sharp(6e-10, 1e-8, 5e-11), ..BLINN_PHONG_BEYOND_LIMIT };
 
-const CHARLIE: Columns = Columns { ..CHARLIE_BELOW_WIDE_LAYER };
+const CHARLIE: Columns = Columns { s1616: sharp(6e-8, 5e-7, 1.5e-9), ..CHARLIE_BELOW_WIDE_LAYER };
 
 const CHARLIE_BELOW_WIDE_LAYER: Columns = Columns {
     d6144: sharp(5e-7, 1.5e-6, 1e-12),
@@ -276,7 +276,7 @@ const CHARLIE_BELOW_LIMIT: Columns = Columns {
     b2544: sharp(6e-8, 5e-7, 1.2e-9),
     b5920: sharp(2e-8, 2e-7, 2e-10),
     s2016: sharp(1.5e-8, 3e-7, 4e-10),
-    s1616: sharp(6e-8, 5e-7, 1.5e-9),
+    s1616: sharp(3e-7, 1.2e-6, 4e-9),
     ..SMOOTH
 };
 

@@ -80,8 +80,8 @@ impl Follows {
         }
     }
 
-    /// What the polynomials are multiplied by. Charlie's integrals grow like 1/√α as α → 0, and with
-    /// the fitted term like the inverse of n·v (1 + 2Λ); beyond n·v ~ √α they fall like
+    /// What the polynomials are multiplied by. Charlie's integrals grow like 1/√α as α → 0, and
+    /// with the fitted term like the inverse of n·v (1 + 2Λ); beyond n·v ~ √α they fall like
     /// exp(-(n·v)²/(8α)).
     #[inline(always)]
     fn scale<R: Real>(self, mu: R, alpha: f64) -> R {
