@@ -270,7 +270,7 @@ const CHARLIE_BELOW_LIMIT: Columns = Columns {
     d6144: NONE,
     d10240: NONE,
     r456: sharp(5e-7, 4e-6, 4e-9),
-    r976: sharp(1.5e-8, 3e-7, 6e-10),
+    r976: sharp(1.5e-8, 3e-7, 8e-10),
     r2552: sharp(1e-9, 1.5e-8, 1.2e-10),
     r6080: sharp(7e-11, 1.5e-8, 4e-12),
     b2544: sharp(6e-8, 5e-7, 1.2e-9),
