@@ -249,7 +249,8 @@ const fn ring(name: &'static str, nodes: RingRule, column: Column) -> Rule {
     rule(name, Method::Rings(nodes), column)
 }
 
-const fn ring_nodes(counts: [usize; 4]) -> RingRule {
+/// Radial nodes and azimuths where the horizon cuts the circle, then where it does not.
+pub(super) const fn ring_nodes(counts: [usize; 4]) -> RingRule {
     let [radial, azimuth, radial_full, azimuth_full] = counts;
     RingRule { radial, azimuth, radial_full, azimuth_full }
 }

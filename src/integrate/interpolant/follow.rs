@@ -80,20 +80,20 @@ impl Follows {
         }
     }
 
-    /// What the polynomials are multiplied by. Charlie's integrals grow like 1/√α as α → 0, and
-    /// with the fitted term like the inverse of n·v (1 + 2Λ); beyond n·v ~ √α they fall like
-    /// exp(-(n·v)²/(8α)).
+    /// What the polynomials are multiplied by, if anything. Charlie's integrals grow like 1/√α as
+    /// α → 0, and with the fitted term like the inverse of n·v (1 + 2Λ); beyond n·v ~ √α they fall
+    /// like exp(-(n·v)²/(8α)).
     #[inline(always)]
-    fn scale<R: Real>(self, mu: R, alpha: f64) -> R {
+    fn scale<R: Real>(self, mu: R, alpha: f64) -> Option<R> {
         match self.lobe.ndf {
             Ndf::Charlie => {
                 let fall = exponential(mu * mu * (-0.125 / alpha)) * (1.0 / alpha.sqrt());
-                match self.lobe.diverges_at_grazing() {
+                Some(match self.lobe.diverges_at_grazing() {
                     true => fall / self.lobe.masking_projected_area(mu, R::from(alpha)),
                     false => fall,
-                }
+                })
             }
-            Ndf::Ggx | Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong => R::from(1.0),
+            Ndf::Ggx | Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong => None,
         }
     }
 
@@ -105,7 +105,7 @@ impl Follows {
         integrals: &[f64],
     ) -> [f64; N] {
         let e: f64 = integrals.iter().take(2).sum();
-        let (weights, scale) = (basis.weights(mu), self.scale(mu, alpha));
+        let (weights, scale) = (basis.weights(mu), self.scale(mu, alpha).unwrap_or(1.0));
         let beyond = |k: usize| match k {
             0 => e - self.limit(mu),
             _ => integrals[k] - weights[k] * e,
@@ -123,12 +123,9 @@ impl Follows {
         followed: [R; N],
     ) -> Integrals<N, R> {
         let weights = basis.weights(mu);
-        let beyond = match self.lobe.ndf {
-            Ndf::Charlie => {
-                let scale = self.scale(mu, alpha);
-                followed.map(|value| value * scale)
-            }
-            _ => followed,
+        let beyond = match self.scale(mu, alpha) {
+            Some(scale) => followed.map(|value| value * scale),
+            None => followed,
         };
         let e = beyond[0] + self.limit(mu);
         let mut integrals = Integrals::zero();

@@ -7,8 +7,7 @@ use crate::brdf::Ndf;
 use crate::integrate::half_vectors::HalfVectorRule;
 use crate::integrate::light_directions::LightDirectionRule;
 use crate::integrate::light_planes::LightPlaneRule;
-use crate::integrate::rings::RingRule;
-use crate::integrate::rules::{B2544_NODES, L512_NODES, L4608_NODES, R976_NODES};
+use crate::integrate::rules::{B2544_NODES, L512_NODES, L4608_NODES, R976_NODES, ring_nodes};
 use crate::numeric::quadrature::slope_map::Power;
 
 const fn map([compression, power]: [u32; 2], layer: Layer) -> Map {
@@ -48,8 +47,7 @@ const H2304: Source = Source::HalfVectors(HalfVectorRule {
     power: Power::Four,
 });
 const R976: Source = Source::Rings(R976_NODES);
-const R1344: Source =
-    Source::Rings(RingRule { radial: 40, azimuth: 30, radial_full: 16, azimuth_full: 9 });
+const R1344: Source = Source::Rings(ring_nodes([40, 30, 16, 9]));
 const B2544: Source = Source::BentRings(B2544_NODES);
 
 /// tanh(asinh(μ/α)/8)^½

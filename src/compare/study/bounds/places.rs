@@ -25,6 +25,8 @@ pub struct Places {
     most_alpha: f64,
     /// The cosine of the critical angle of glass seen from inside, else 0.
     critical: f64,
+    /// [`limits`]
+    limits: Vec<f64>,
 }
 
 /// 1 - p at the upper end of a coordinate, apart from p = 1 itself: the last number below 1.
@@ -96,7 +98,7 @@ impl Places {
             Integrand::Diffuse(_) => (false, 1.0, 0.0),
         };
         let least_mu = if diverges { SMALLEST_COSINE } else { 0.0 };
-        Places { random: Random(seed), least_mu, most_alpha, critical }
+        Places { random: Random(seed), least_mu, most_alpha, critical, limits: limits() }
     }
 
     fn at(&self, x: f64, y: f64) -> Place {
@@ -134,7 +136,7 @@ impl Places {
             5 => self.within(crowded.alpha.sqrt() * few, crowded.alpha),
             6 => self.within(1.0 - (crowded.alpha * few) * (crowded.alpha * few), crowded.alpha),
             _ => {
-                let limits = limits();
+                let limits = &self.limits;
                 let limit = limits[(r * limits.len() as f64) as usize % limits.len()];
                 let off = libm::exp10(self.random.between(-12.0, -1.0));
                 self.within(crowded.mu, limit * (1.0 + off.copysign(u - 0.5)))
