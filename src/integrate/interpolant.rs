@@ -60,7 +60,7 @@ pub struct InterpolantRule {
 /// What is subtracted from E before a polynomial follows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beyond {
-    /// Nothing.
+    /// Nothing: the polynomials are those of the integrals themselves.
     Nothing,
     /// E(α → 0).
     Limit,

@@ -85,16 +85,14 @@ impl Follows {
     /// like exp(-(n·v)²/(8α)).
     #[inline(always)]
     fn scale<R: Real>(self, mu: R, alpha: f64) -> Option<R> {
-        match self.lobe.ndf {
-            Ndf::Charlie => {
-                let fall = exponential(mu * mu * (-0.125 / alpha)) * (1.0 / alpha.sqrt());
-                Some(match self.lobe.diverges_at_grazing() {
-                    true => fall / self.lobe.masking_projected_area(mu, R::from(alpha)),
-                    false => fall,
-                })
-            }
-            Ndf::Ggx | Ndf::Beckmann | Ndf::BeckmannWalter | Ndf::BlinnPhong => None,
+        if self.lobe.ndf != Ndf::Charlie || self.beyond == Beyond::Nothing {
+            return None;
         }
+        let fall = exponential(mu * mu * (-0.125 / alpha)) * (1.0 / alpha.sqrt());
+        Some(match self.lobe.diverges_at_grazing() {
+            true => fall / self.lobe.masking_projected_area(mu, R::from(alpha)),
+            false => fall,
+        })
     }
 
     /// E less its limit, and the rests of the integrals, over their scale.

@@ -18,6 +18,11 @@ const fn piece(end: f64, [directions, roughnesses]: [usize; 2], map: Map, source
     Piece { end, directions, roughnesses, apart: true, map, source }
 }
 
+/// A piece whose polynomials go on over a break.
+const fn across(piece: Piece) -> Piece {
+    Piece { apart: false, ..piece }
+}
+
 /// Of E beyond its limit.
 const fn of(
     distributions: &'static [Ndf],
@@ -66,12 +71,12 @@ const NARROW_RING: Map = Map { cut: 2.0, ..RING };
 const NARROW: f64 = 0.0625;
 
 /// The nodes of `s640`.
-pub const S640_NODES: InterpolantRule = whole(L512, &[piece(1.0, [32, 20], FEW, L512)]);
+pub const S640_NODES: InterpolantRule = whole(L512, &[across(piece(1.0, [32, 20], FEW, L512))]);
 /// The nodes of `s1440`.
 pub const S1440_NODES: InterpolantRule =
     of(&[Ndf::Ggx], L4608, &[piece(1.0, [48, 30], SOME, L2048)]);
 /// The nodes of `s2304`.
-pub const S2304_NODES: InterpolantRule = whole(L4608, &[piece(1.0, [64, 36], MANY, L4608)]);
+pub const S2304_NODES: InterpolantRule = whole(L4608, &[across(piece(1.0, [64, 36], MANY, L4608))]);
 
 /// The nodes of `s2080`.
 pub const S2080_NODES: InterpolantRule = of(
@@ -116,7 +121,7 @@ pub const S1616_NODES: InterpolantRule = InterpolantRule {
         &[Ndf::Charlie],
         B2544,
         &[
-            Piece { apart: false, ..piece(0.05, [64, 12], NARROW_RING, R976) },
+            across(piece(0.05, [64, 12], NARROW_RING, R976)),
             piece(0.3, [32, 16], RING, B2544),
             piece(1.0, [24, 14], RING, B2544),
         ],
