@@ -23,6 +23,8 @@ pub mod module {
     pub const SLOPE_MAP: &str = include_str!("../../shaders/slope_map.wgsl");
     /// The nodes of a rule.
     pub const NODES: &str = include_str!("../../shaders/nodes.wgsl");
+    /// The points of an estimator, in place of nodes.
+    pub const POINTS: &str = include_str!("../../shaders/points.wgsl");
     /// The weights of slopes, and their sum.
     pub const RADIAL: &str = include_str!("../../shaders/radial.wgsl");
     /// Twin of `integrate::glass::ring`.
@@ -44,14 +46,28 @@ pub struct Kernel {
     pub spirv: Vec<u32>,
     /// Invocations in a workgroup.
     pub workgroup: usize,
-    /// Its storage buffers are bindings 0 to this, exclusive, of set 0.
-    pub buffers: u32,
+    /// Its bindings 0, 1, … of set 0.
+    pub bindings: Vec<Binding>,
     /// Bytes of its push constants.
     pub push_bytes: u32,
 }
 
+/// What a kernel reads or writes a buffer as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Binding {
+    /// `var<uniform>`
+    Uniform,
+    /// `var<storage>`
+    Storage,
+}
+
 /// The WGSL that integrates a lobe over half vectors.
 pub fn lobe_source(lobe: Microfacet, fresnel: Fresnel, power: Power) -> String {
+    [module::NODES, &lobe_functions(lobe, fresnel, power)].join("\n")
+}
+
+/// The same but for the nodes.
+pub fn lobe_functions(lobe: Microfacet, fresnel: Fresnel, power: Power) -> String {
     let (of_mirror, visibility) = lobe.masking.wgsl();
     let limit = if lobe.ndf.definition().becomes_mirror { of_mirror } else { "0.0" };
     let glue = format!(
@@ -87,7 +103,7 @@ fn transmitted_visibility{arguments} {{ return {transmitted}; }}
     let ndf = interface.lobe().ndf;
     let slopes = slope_source(ndf, &format!("{:e}", ndf.slope_end(1.0, TAIL_DEPTH)), power);
     let (fresnel, _) = Dielectric::DEFINITION.wgsl;
-    [&slopes, fresnel, module::GLASS_RING, module::GLASS, &glue].join("\n")
+    [module::NODES, &slopes, fresnel, module::GLASS_RING, module::GLASS, &glue].join("\n")
 }
 
 /// The modules that every integral over half vectors takes, and a distribution's functions.
@@ -113,8 +129,7 @@ fn projected_area(c: f32, alpha: f32) -> f32 {{ return {}; }}
             models.push(source);
         }
     }
-    let modules =
-        [module::SPECIAL, module::MASKING, module::NODES, module::SLOPE_MAP, module::RADIAL];
+    let modules = [module::SPECIAL, module::MASKING, module::SLOPE_MAP, module::RADIAL];
     [&models.join("\n"), &modules.join("\n"), &glue].map(String::as_str).join("\n")
 }
 
@@ -192,9 +207,18 @@ pub fn compile(source: &str) -> Result<Kernel> {
         .subgroup_operations(SubgroupOperationSet::empty())
         .validate(&module)
         .map_err(|error| internal("validation", error.emit_to_string(source)))?;
-    let bindings = module.global_variables.iter().filter_map(|(_, variable)| variable.binding);
+    let bound = |(_, variable): (_, &naga::GlobalVariable)| {
+        let kind = match variable.space {
+            naga::AddressSpace::Uniform => Binding::Uniform,
+            _ => Binding::Storage,
+        };
+        variable.binding.map(|binding| (binding, kind))
+    };
+    let mut bindings: Vec<_> = module.global_variables.iter().filter_map(bound).collect();
+    bindings.sort_by_key(|(binding, _)| binding.binding);
     let binding_map: spv::BindingMap = bindings
-        .map(|binding| {
+        .iter()
+        .map(|&(binding, _)| {
             let info = spv::BindingInfo {
                 descriptor_set: binding.group,
                 binding: binding.binding,
@@ -208,7 +232,7 @@ pub fn compile(source: &str) -> Result<Kernel> {
     let push_bytes = push.map(|(_, v)| module.types[v.ty].inner.size(module.to_ctx())).sum();
     let entry = module.entry_points.iter().find(|entry| entry.name == "main");
     let workgroup = entry.map_or(0, |entry| entry.workgroup_size.iter().product::<u32>());
-    let buffers = binding_map.len() as u32;
+    let bindings = bindings.into_iter().map(|(_, kind)| kind).collect();
     let options = spv::Options {
         lang_version: (1, 3),
         flags: spv::WriterFlags::empty(),
@@ -232,5 +256,5 @@ pub fn compile(source: &str) -> Result<Kernel> {
     };
     let spirv = spv::write_vec(&module, &info, &options, Some(&pipeline))
         .map_err(|error| internal("code generation", error.to_string()))?;
-    Ok(Kernel { spirv, workgroup: workgroup as usize, buffers, push_bytes })
+    Ok(Kernel { spirv, workgroup: workgroup as usize, bindings, push_bytes })
 }

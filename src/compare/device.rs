@@ -5,7 +5,7 @@ use super::sampling::Sampler;
 use crate::backend::Gpu;
 use crate::backend::device::DeviceBake;
 use crate::backend::vulkan::bake::{Work, run};
-use crate::backend::wgsl::{kernel, lobe_source};
+use crate::backend::wgsl::{kernel, lobe_functions, lobe_source, module};
 use crate::brdf::{Fresnel, Masking, Microfacet, Ndf};
 use crate::error::Result;
 use crate::numeric::quadrature::slope_map::Power;
@@ -18,7 +18,7 @@ pub const SAMPLING: &str = include_str!("../../shaders/sampling.wgsl");
 pub const TEXTBOOK: &str = include_str!("../../shaders/textbook.wgsl");
 
 /// The WGSL that estimates by a sampler; it goes with that of a lobe.
-pub fn sampling_source(sampler: Sampler) -> String {
+fn sampling_source(sampler: Sampler) -> String {
     let draw = match sampler {
         Sampler::Uniform => "uniform_sample",
         Sampler::Cosine => "cosine_sample",
@@ -30,6 +30,12 @@ pub fn sampling_source(sampler: Sampler) -> String {
     format!(
         "{SAMPLING}\nfn draw(view: View, point: Point) -> Sample {{ return {draw}(view, point); }}"
     )
+}
+
+/// The WGSL of the estimator of a lobe.
+pub fn estimator_source(lobe: Microfacet, fresnel: Fresnel, sampler: Sampler) -> String {
+    let lobe = lobe_functions(lobe, fresnel, Power::Four);
+    [module::POINTS, &lobe, &sampling_source(sampler)].join("\n")
 }
 
 /// The WGSL of the formulas of a distribution, textbooks' and ours.
@@ -47,9 +53,8 @@ pub fn bake_samples(
     points: &[Point],
 ) -> Result<DeviceBake> {
     let fresnel = Fresnel::Schlick;
-    let source = [lobe_source(lobe, fresnel, Power::Four), sampling_source(sampler)].join("\n");
     let work = Work {
-        kernel: kernel(&source, fresnel, "estimate")?,
+        kernel: kernel(&estimator_source(lobe, fresnel, sampler), fresnel, "estimate")?,
         nodes: point_data(points),
         counts: vec![points.len(), 0, 0, 0],
         count: fresnel.count(),

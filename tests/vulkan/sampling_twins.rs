@@ -6,10 +6,9 @@ use crate::twins::{Twin, compare, small, unit};
 use glam::DVec3;
 use libtest_mimic::Failed;
 use splitsum::backend::Gpu;
-use splitsum::backend::wgsl::lobe_source;
 use splitsum::brdf::{Fresnel, Masking, Microfacet};
 use splitsum::choice::Choice;
-use splitsum::compare::device::{bake_samples, point_data, sampling_source};
+use splitsum::compare::device::{bake_samples, estimator_source, point_data};
 use splitsum::compare::point_set::{Point, PointSet};
 use splitsum::compare::rows::{Work, bake_in};
 use splitsum::compare::sampling::{
@@ -17,17 +16,12 @@ use splitsum::compare::sampling::{
     sampled_half_vectors, spherical_cap_sample, uniform_sample, visible_sample,
 };
 use splitsum::numeric::lanes::F64x8;
-use splitsum::numeric::quadrature::slope_map::Power;
 use splitsum::table::grid::Grid;
 
 pub const TESTS: &[DeviceTest] = &[
     ("functions of the estimators equal their twins", |gpu| {
-        let source = [
-            &lobe_source(LOBE, Fresnel::Schlick, Power::Four),
-            &sampling_source(Sampler::SphericalCap),
-            HELPERS,
-        ]
-        .join("\n");
+        let sampler = estimator_source(LOBE, Fresnel::Schlick, Sampler::SphericalCap);
+        let source = [&sampler, HELPERS].join("\n");
         let nodes = point_data(&points());
         twins().iter().try_for_each(|twin| compare(gpu, &source, &nodes, twin))
     }),

@@ -4,12 +4,12 @@ use crate::DeviceTest;
 use crate::common::{Difference, VULKAN, ggx, missing};
 use libtest_mimic::{Failed, Trial};
 use splitsum::backend::device::GpuOptions;
-use splitsum::backend::wgsl::{bake_kernel, kernel, lobe_source};
+use splitsum::backend::wgsl::{bake_kernel, kernel};
 use splitsum::backend::{Backend, BackendChoice, Gpu, bake, cpu, list_devices};
 use splitsum::brdf::{Fresnel, Masking, Microfacet, Ndf};
 use splitsum::certify::deviation::cross_check;
 use splitsum::choice::Choice;
-use splitsum::compare::device::{bake_samples, sampling_source};
+use splitsum::compare::device::{bake_samples, estimator_source};
 use splitsum::compare::point_set::PointSet;
 use splitsum::compare::sampling::Sampler;
 use splitsum::integrate::errors::f32_arithmetic;
@@ -212,8 +212,8 @@ fn spirv_val() -> Trial {
             let samplers =
                 Sampler::ALL.iter().copied().filter(|sampler| sampler.runs_on_device(lobe));
             let samples = samplers.map(|sampler| {
-                let lobe = lobe_source(lobe, Fresnel::Schlick, Power::Four);
-                kernel(&[lobe, sampling_source(sampler)].join("\n"), Fresnel::Schlick, "estimate")
+                let source = estimator_source(lobe, Fresnel::Schlick, sampler);
+                kernel(&source, Fresnel::Schlick, "estimate")
             });
             for kernel in bakes.chain(samples) {
                 let mut file = tempfile::NamedTempFile::new()?;

@@ -1,7 +1,7 @@
 //! A bake on a device: the grid cut into dispatches short enough for any watchdog, read back tile
 //! by tile.
 
-use super::buffer::Buffer;
+use super::buffer::{Buffer, Results};
 use super::gpu::Gpu;
 use super::pipeline::{Elapsed, Pipeline};
 use crate::backend::Progress;
@@ -21,21 +21,23 @@ use std::time::Duration;
 /// fifty times as costly as those before.
 const TARGET: Duration = Duration::from_millis(40);
 
-/// Texels of the first dispatch, by which the device's speed is measured.
-const FIRST_TILE: usize = 1024;
+/// Texels of the first dispatch, by which the device's speed is measured: 50 ms of the dearest rule
+/// on the slowest device.
+const FIRST_TILE: usize = 4096;
 
-/// Texels of the largest tile: 32 MiB of results for two integrals.
-const LARGEST_TILE: usize = 1 << 22;
+/// How many times as large as the last tile the next may be. The widest grid has 16384 texels in a
+/// row whose alpha is 0, which cost nothing: the second tile has most of its texels beyond.
+const GROWTH: f64 = 8.0;
 
-/// The content of the results before the device writes them: a NaN that no arithmetic makes.
-const POISON: u32 = 0x7fc0_dead;
+/// Texels of the largest tile: 16 MiB of results for two integrals, on the device and on the host.
+const LARGEST_TILE: usize = 1 << 21;
 
 /// A kernel that writes `count` integrals for each point of a grid, and its input.
 #[derive(Clone, Debug)]
 pub struct Work {
-    /// The kernel: its buffers are nodes, n·v, α and results.
+    /// The kernel: its bindings are nodes, n·v, α and results.
     pub kernel: Kernel,
-    /// The contents of its first buffer.
+    /// The nodes of its rule, or points.
     pub nodes: Vec<[f32; 2]>,
     /// The fields of its `Rule`.
     pub counts: Vec<usize>,
@@ -91,29 +93,28 @@ pub fn bake_glass(
 /// Runs a kernel at every point of the grid; the results are in its order.
 pub fn run(gpu: &Gpu, work: &Work, grid: &Grid, progress: Progress) -> Result<DeviceBake> {
     let Work { kernel, nodes, counts, count, critical } = work;
-    let group = kernel.workgroup;
-    let largest = largest_tile(gpu, group, *count).min(grid.len());
+    let (group, texel) = (kernel.workgroup, size_of::<f32>() * count);
+    let largest = largest_tile(gpu, group, texel).min(grid.len());
     let mut tile = gpu.options().tile.unwrap_or(FIRST_TILE).clamp(1, largest);
-    let nodes = Buffer::with(gpu, nodes)?;
+    let nodes = Buffer::nodes(gpu, kernel, nodes)?;
     // The difference is rounded once: near the critical angle none of f32 is left in the shader.
     let view = |&mu: &f64| [mu as f32, (mu - critical) as f32];
-    let mus = Buffer::with(gpu, &grid.mus.iter().map(view).collect::<Vec<_>>())?;
+    let mus = Buffer::storage(gpu, &grid.mus.iter().map(view).collect::<Vec<_>>())?;
     let alphas: Vec<f32> = grid.alphas.iter().map(|&alpha| alpha as f32).collect();
-    let alphas = Buffer::with(gpu, &alphas)?;
-    let results = Buffer::new(gpu, size_of::<f32>() * count * largest)?;
-    let buffers = [&nodes, &mus, &alphas, &results];
-    let pipeline = Pipeline::new(gpu, kernel, &buffers)?;
-    let poison = vec![POISON; largest * count];
+    let alphas = Buffer::storage(gpu, &alphas)?;
+    let results = Results::new(gpu, texel * largest, texel * tile)?;
+    let buffers = [&nodes, &mus, &alphas, &results.own];
+    let pipeline = Pipeline::new(gpu, kernel, &buffers, &results)?;
     let mut integrals = Vec::with_capacity(grid.len() * count);
     let mut device_seconds = Some(0.0);
     while integrals.len() < grid.len() * count {
         let first = integrals.len() / count;
         let texels = tile.min(grid.len() - first);
-        results.write(&poison[..texels * count]);
         let push: Vec<u32> =
             [first, first + texels].iter().chain(counts).map(|&n| n as u32).collect();
+        let groups = texels.div_ceil(group) as u32;
         let Elapsed { wall, device } =
-            pipeline.run(bytemuck::cast_slice(&push), texels.div_ceil(group) as u32)?;
+            pipeline.run(bytemuck::cast_slice(&push), groups, texel * texels)?;
         device_seconds = device_seconds.zip(device).map(|(sum, device)| sum + device);
         integrals.extend(results.read::<f32>(texels * count).into_iter().map(f64::from));
         progress(texels);
@@ -125,18 +126,17 @@ pub fn run(gpu: &Gpu, work: &Work, grid: &Grid, progress: Progress) -> Result<De
     Ok(DeviceBake { integrals: Field::of(*count, integrals), device_seconds })
 }
 
-/// The most texels that fit the device's limits on buffers and workgroups.
-fn largest_tile(gpu: &Gpu, group: usize, count: usize) -> usize {
-    let by_buffer = gpu.limits.max_storage_buffer_range as usize / (size_of::<f32>() * count);
+/// The most texels of so many bytes that fit the device's limits on buffers and workgroups.
+fn largest_tile(gpu: &Gpu, group: usize, texel: usize) -> usize {
+    let by_buffer = gpu.limits.max_storage_buffer_range as usize / texel;
     let by_groups = gpu.limits.max_compute_work_group_count[0] as usize * group;
     LARGEST_TILE.min(by_buffer).min(by_groups)
 }
 
-/// A tile that would have taken [`TARGET`], but no more than four times the last one: the first is
-/// slowed by compilation.
+/// A tile that would have taken [`TARGET`], but no more than [`GROWTH`] times the last one.
 fn next_tile(tile: usize, elapsed: Duration) -> usize {
     let ratio = TARGET.as_secs_f64() / elapsed.as_secs_f64().max(1e-6);
-    (tile as f64 * ratio.min(4.0)) as usize
+    (tile as f64 * ratio.min(GROWTH)) as usize
 }
 
 /// The nodes as the shader reads them: (position, weight), in the order of the fields of `Rule`.

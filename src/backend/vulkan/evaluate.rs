@@ -1,7 +1,7 @@
 //! An expression of WGSL on a device, for one argument after the other: functions alone, to be
 //! compared with their twins.
 
-use super::buffer::Buffer;
+use super::buffer::{Buffer, Results};
 use super::gpu::Gpu;
 use super::pipeline::Pipeline;
 use crate::backend::wgsl::compile;
@@ -26,11 +26,12 @@ pub fn evaluate(
 }}"
     );
     let kernel = compile(&[source, &entry].join("\n"))?;
-    let nodes = Buffer::with(gpu, if nodes.is_empty() { &[[0.0; 2]] } else { nodes })?;
-    let input = Buffer::with(gpu, arguments)?;
-    let output = Buffer::new(gpu, 16 * arguments.len())?;
-    let buffers = [&nodes, &input, &output];
-    Pipeline::new(gpu, &kernel, &buffers)?
-        .run(&[], arguments.len().div_ceil(kernel.workgroup) as u32)?;
+    let nodes = Buffer::nodes(gpu, &kernel, nodes)?;
+    let input = Buffer::storage(gpu, arguments)?;
+    let bytes = size_of_val(arguments);
+    let output = Results::new(gpu, bytes, bytes)?;
+    let buffers = [&nodes, &input, &output.own];
+    let groups = arguments.len().div_ceil(kernel.workgroup) as u32;
+    Pipeline::new(gpu, &kernel, &buffers, &output)?.run(&[], groups, bytes)?;
     Ok(output.read(arguments.len()))
 }

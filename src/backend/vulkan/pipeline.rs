@@ -1,10 +1,10 @@
-//! A compute pipeline bound to its buffers, and how it is run: one submission, one fence, one
-//! barrier towards the host.
+//! A compute pipeline bound to its buffers, and how it is run: one submission, one fence. The
+//! results are poisoned, written and copied to the host, with a barrier between each two.
 
-use super::buffer::Buffer;
+use super::buffer::{Buffer, POISON, Results};
 use super::failed;
 use super::gpu::Gpu;
-use crate::backend::wgsl::Kernel;
+use crate::backend::wgsl::{Binding, Kernel};
 use crate::error::{Error, Result};
 use ash::vk;
 use std::time::{Duration, Instant};
@@ -25,6 +25,7 @@ const TIMEOUT: Duration = Duration::from_secs(20);
 pub struct Pipeline<'g, 'b> {
     gpu: &'g Gpu,
     _buffers: &'b [&'b Buffer<'g>],
+    results: &'b Results<'g>,
     module: vk::ShaderModule,
     set_layout: vk::DescriptorSetLayout,
     layout: vk::PipelineLayout,
@@ -39,19 +40,22 @@ pub struct Pipeline<'g, 'b> {
 }
 
 impl<'g, 'b> Pipeline<'g, 'b> {
-    /// Compiles `kernel` and binds `buffers` to its bindings 0, 1, … in order.
-    pub fn new(gpu: &'g Gpu, kernel: &Kernel, buffers: &'b [&'b Buffer<'g>]) -> Result<Self> {
-        if buffers.len() != kernel.buffers as usize {
-            return Err(Error::Internal(format!(
-                "{} buffers for {} bindings",
-                buffers.len(),
-                kernel.buffers
-            )));
+    /// Compiles `kernel` and binds `buffers`, the results' own among them, to bindings 0, 1, …
+    pub fn new(
+        gpu: &'g Gpu,
+        kernel: &Kernel,
+        buffers: &'b [&'b Buffer<'g>],
+        results: &'b Results<'g>,
+    ) -> Result<Self> {
+        let (given, needed) = (buffers.len(), kernel.bindings.len());
+        if given != needed {
+            return Err(Error::Internal(format!("{given} buffers for {needed} bindings")));
         }
         // Whatever is made before a failure is freed by the drop of this.
         let mut this = Pipeline {
             gpu,
             _buffers: buffers,
+            results,
             module: vk::ShaderModule::null(),
             set_layout: vk::DescriptorSetLayout::null(),
             layout: vk::PipelineLayout::null(),
@@ -64,21 +68,21 @@ impl<'g, 'b> Pipeline<'g, 'b> {
             timestamps: vk::QueryPool::null(),
         };
         this.compile(kernel)?;
-        this.bind(buffers)?;
+        this.bind(kernel, buffers)?;
         this.prepare()?;
         Ok(this)
     }
 
     fn compile(&mut self, kernel: &Kernel) -> Result<()> {
         let device = &self.gpu.device;
-        let binding = |i| {
+        let binding = |(i, binding): (usize, &Binding)| {
             vk::DescriptorSetLayoutBinding::default()
-                .binding(i)
-                .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
+                .binding(i as u32)
+                .descriptor_type(descriptor(*binding))
                 .descriptor_count(1)
                 .stage_flags(vk::ShaderStageFlags::COMPUTE)
         };
-        let bindings: Vec<_> = (0..kernel.buffers).map(binding).collect();
+        let bindings: Vec<_> = kernel.bindings.iter().enumerate().map(binding).collect();
         let push = [vk::PushConstantRange::default()
             .stage_flags(vk::ShaderStageFlags::COMPUTE)
             .size(kernel.push_bytes)];
@@ -113,12 +117,11 @@ impl<'g, 'b> Pipeline<'g, 'b> {
         Ok(())
     }
 
-    fn bind(&mut self, buffers: &[&Buffer]) -> Result<()> {
+    fn bind(&mut self, kernel: &Kernel, buffers: &[&Buffer]) -> Result<()> {
         let device = &self.gpu.device;
-        let sizes = [vk::DescriptorPoolSize {
-            ty: vk::DescriptorType::STORAGE_BUFFER,
-            descriptor_count: buffers.len() as u32,
-        }];
+        let size =
+            |&binding| vk::DescriptorPoolSize { ty: descriptor(binding), descriptor_count: 1 };
+        let sizes: Vec<_> = kernel.bindings.iter().map(size).collect();
         let pool = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
         let layouts = [self.set_layout];
         let infos: Vec<_> = buffers
@@ -142,15 +145,15 @@ impl<'g, 'b> Pipeline<'g, 'b> {
             self.set = device
                 .allocate_descriptor_sets(&allocate)
                 .map_err(failed("allocating descriptors"))?[0];
-            let write = |(i, info)| {
-                vk::WriteDescriptorSet::default()
+            let mut writes = Vec::new();
+            for (i, (info, &binding)) in infos.iter().zip(&kernel.bindings).enumerate() {
+                let write = vk::WriteDescriptorSet::default()
                     .dst_set(self.set)
                     .dst_binding(i as u32)
-                    .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
-                    .buffer_info(info)
-            };
-            let writes: Vec<_> =
-                infos.iter().map(|info| &info[..]).enumerate().map(write).collect();
+                    .descriptor_type(descriptor(binding))
+                    .buffer_info(info);
+                writes.push(write);
+            }
             device.update_descriptor_sets(&writes, &[]);
         }
         Ok(())
@@ -187,18 +190,12 @@ impl<'g, 'b> Pipeline<'g, 'b> {
         Ok(())
     }
 
-    /// Runs `groups` workgroups with the push constants `push`, waits for them, and tells how long
-    /// they took.
-    pub fn run(&self, push: &[u8], groups: u32) -> Result<Elapsed> {
-        use vk::{AccessFlags, PipelineStageFlags};
+    /// Runs `groups` workgroups with the push constants `push`, copies the first `bytes` of the
+    /// results to the host, waits for all that, and tells how long it took.
+    pub fn run(&self, push: &[u8], groups: u32, bytes: usize) -> Result<Elapsed> {
         let device = &self.gpu.device;
         let begin = vk::CommandBufferBeginInfo::default()
             .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
-        // What the host wrote is visible to every later submission; what the shader writes is not,
-        // without this.
-        let to_host = [vk::MemoryBarrier::default()
-            .src_access_mask(AccessFlags::SHADER_WRITE)
-            .dst_access_mask(AccessFlags::HOST_READ)];
         let commands = [self.command];
         let submit = [vk::SubmitInfo::default().command_buffers(&commands)];
         let start = Instant::now();
@@ -206,46 +203,7 @@ impl<'g, 'b> Pipeline<'g, 'b> {
         // lost.
         unsafe {
             device.begin_command_buffer(self.command, &begin).map_err(failed("recording"))?;
-            if self.timestamps != vk::QueryPool::null() {
-                device.cmd_reset_query_pool(self.command, self.timestamps, 0, 2);
-                device.cmd_write_timestamp(
-                    self.command,
-                    PipelineStageFlags::TOP_OF_PIPE,
-                    self.timestamps,
-                    0,
-                );
-            }
-            device.cmd_bind_pipeline(self.command, vk::PipelineBindPoint::COMPUTE, self.pipeline);
-            let (bind, sets) = (vk::PipelineBindPoint::COMPUTE, [self.set]);
-            device.cmd_bind_descriptor_sets(self.command, bind, self.layout, 0, &sets, &[]);
-            if !push.is_empty() {
-                device.cmd_push_constants(
-                    self.command,
-                    self.layout,
-                    vk::ShaderStageFlags::COMPUTE,
-                    0,
-                    push,
-                );
-            }
-            device.cmd_dispatch(self.command, groups, 1, 1);
-            if self.timestamps != vk::QueryPool::null() {
-                device.cmd_write_timestamp(
-                    self.command,
-                    PipelineStageFlags::COMPUTE_SHADER,
-                    self.timestamps,
-                    1,
-                );
-            }
-            let (from, to) = (PipelineStageFlags::COMPUTE_SHADER, PipelineStageFlags::HOST);
-            device.cmd_pipeline_barrier(
-                self.command,
-                from,
-                to,
-                vk::DependencyFlags::empty(),
-                &to_host,
-                &[],
-                &[],
-            );
+            self.record(push, groups, bytes.min(self.results.own.bytes) as u64);
             device.end_command_buffer(self.command).map_err(failed("recording"))?;
             device.reset_fences(&[self.fence]).map_err(failed("resetting the fence"))?;
             device
@@ -256,6 +214,64 @@ impl<'g, 'b> Pipeline<'g, 'b> {
                 .map_err(failed("waiting for the work"))?;
         }
         Ok(Elapsed { wall: start.elapsed(), device: self.device_seconds()? })
+    }
+
+    /// Records the commands of a run. What the host wrote is visible to every later submission;
+    /// what the device writes is visible to nothing without a barrier.
+    fn record(&self, push: &[u8], groups: u32, bytes: u64) {
+        use vk::{AccessFlags as Access, PipelineStageFlags as Stage};
+        let (device, command) = (&self.gpu.device, self.command);
+        let (own, copy) = (self.results.own.raw, self.results.copy.raw);
+        let poisoned = (Stage::TRANSFER, Access::TRANSFER_WRITE);
+        let written = (Stage::COMPUTE_SHADER, Access::SHADER_WRITE);
+        let copied = (Stage::TRANSFER, Access::TRANSFER_READ);
+        let has_clock = self.timestamps != vk::QueryPool::null();
+        let (bind, sets) = (vk::PipelineBindPoint::COMPUTE, [self.set]);
+        let regions = [vk::BufferCopy::default().size(bytes)];
+        // SAFETY: the command buffer is being recorded, and the buffers hold `bytes`, a multiple of
+        // four as every result is of words.
+        unsafe {
+            if has_clock {
+                device.cmd_reset_query_pool(command, self.timestamps, 0, 2);
+            }
+            device.cmd_fill_buffer(command, own, 0, bytes, POISON);
+            // WGSL has no buffers that are written alone.
+            self.barrier(
+                poisoned,
+                (Stage::COMPUTE_SHADER, Access::SHADER_READ | Access::SHADER_WRITE),
+            );
+            device.cmd_bind_pipeline(command, bind, self.pipeline);
+            device.cmd_bind_descriptor_sets(command, bind, self.layout, 0, &sets, &[]);
+            if !push.is_empty() {
+                let stage = vk::ShaderStageFlags::COMPUTE;
+                device.cmd_push_constants(command, self.layout, stage, 0, push);
+            }
+            if has_clock {
+                // Once the poison is written.
+                device.cmd_write_timestamp(command, Stage::TRANSFER, self.timestamps, 0);
+            }
+            device.cmd_dispatch(command, groups, 1, 1);
+            if has_clock {
+                device.cmd_write_timestamp(command, Stage::COMPUTE_SHADER, self.timestamps, 1);
+            }
+            self.barrier(written, copied);
+            device.cmd_copy_buffer(command, own, copy, &regions);
+            self.barrier(poisoned, (Stage::HOST, Access::HOST_READ));
+        }
+    }
+
+    /// What follows sees what was written before.
+    fn barrier(
+        &self,
+        (from, wrote): (vk::PipelineStageFlags, vk::AccessFlags),
+        (to, access): (vk::PipelineStageFlags, vk::AccessFlags),
+    ) {
+        let memory = [vk::MemoryBarrier::default().src_access_mask(wrote).dst_access_mask(access)];
+        let none = vk::DependencyFlags::empty();
+        // SAFETY: the command buffer is being recorded.
+        unsafe {
+            self.gpu.device.cmd_pipeline_barrier(self.command, from, to, none, &memory, &[], &[]);
+        }
     }
 
     /// Seconds between the two timestamps of the last run.
@@ -278,6 +294,14 @@ impl<'g, 'b> Pipeline<'g, 'b> {
         }
         let ticks = ticks[1].wrapping_sub(ticks[0]) & self.gpu.timestamp_mask;
         Ok(Some(1e-9 * f64::from(self.gpu.limits.timestamp_period) * ticks as f64))
+    }
+}
+
+/// Vulkan's word for a binding.
+fn descriptor(binding: Binding) -> vk::DescriptorType {
+    match binding {
+        Binding::Uniform => vk::DescriptorType::UNIFORM_BUFFER,
+        Binding::Storage => vk::DescriptorType::STORAGE_BUFFER,
     }
 }
 

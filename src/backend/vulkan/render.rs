@@ -1,7 +1,7 @@
 //! A row of a preview on a device.
 
 use super::bake::node_data;
-use super::buffer::Buffer;
+use super::buffer::{Buffer, Results};
 use super::gpu::Gpu;
 use super::pipeline::Pipeline;
 use crate::backend::wgsl::Kernel;
@@ -28,18 +28,20 @@ pub fn render_row(
     row: &RowData,
     rule: &HalfVectorRule,
 ) -> Result<Vec<[f64; 3]>> {
-    let nodes = Buffer::with(gpu, &node_data(&rule.nodes()))?;
-    let columns = Buffer::with(gpu, &row.columns)?;
-    let table = Buffer::with(gpu, &row.table)?;
+    let nodes = Buffer::nodes(gpu, kernel, &node_data(&rule.nodes()))?;
+    let columns = Buffer::storage(gpu, &row.columns)?;
+    let table = Buffer::storage(gpu, &row.table)?;
     let count = row.cell * row.cell * row.columns.len();
-    let pixels = Buffer::with(gpu, &vec![[f32::NAN; 4]; count])?;
+    let bytes = size_of::<[f32; 4]>() * count;
+    let pixels = Results::new(gpu, bytes, bytes)?;
     let side = row.table.len().isqrt();
     let job = [row.cell, row.columns.len(), row.scene as usize, side];
     let (job, counts) = (job.map(|n| n as u32), rule.counts().map(|n| n as u32));
     let push = [job, counts].concat();
-    let buffers = [&nodes, &columns, &table, &pixels];
+    let buffers = [&nodes, &columns, &table, &pixels.own];
     let groups = count.div_ceil(kernel.workgroup) as u32;
-    Pipeline::new(gpu, kernel, &buffers)?.run(bytemuck::cast_slice(&push), groups)?;
+    let pipeline = Pipeline::new(gpu, kernel, &buffers, &pixels)?;
+    pipeline.run(bytemuck::cast_slice(&push), groups, bytes)?;
     let pixels = pixels.read::<[f32; 4]>(count);
     if pixels.iter().flatten().any(|value| !value.is_finite()) {
         return Err(Error::CheckFailed(
