@@ -274,7 +274,7 @@ const CHARLIE_BELOW_LIMIT: Columns = Columns {
     r2552: sharp(1e-9, 1.5e-8, 1.2e-10),
     r6080: sharp(7e-11, 1.5e-8, 4e-12),
     b2544: sharp(6e-8, 5e-7, 1.2e-9),
-    b5920: sharp(2e-8, 2e-7, 2e-10),
+    b5920: sharp(2.5e-8, 2e-7, 2e-10),
     s2016: sharp(1.5e-8, 3e-7, 4e-10),
     s1616: sharp(3e-7, 1.2e-6, 4e-9),
     ..SMOOTH
