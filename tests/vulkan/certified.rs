@@ -11,7 +11,7 @@ use splitsum::brdf::{Diffuse, Fresnel, Masking, Microfacet, Ndf};
 use splitsum::error::ExitCode;
 use splitsum::format::{Format, encode};
 use splitsum::integrate::Integrand;
-use splitsum::integrate::rule::{CHARLIE_LIMIT, Method, Rule};
+use splitsum::integrate::rule::{Method, Rule};
 use splitsum::lut::terms::packing;
 use splitsum::lut::{Dfg, DfgChannels, Lut};
 use splitsum::report::Computed;
@@ -172,16 +172,17 @@ fn within_its_bounds(gpu: &Gpu) -> Result<(), Failed> {
         .flat_map(|fresnel| Microfacet::all().map(move |lobe| (lobe, fresnel)));
     for (lobe, fresnel) in every.filter(|&(lobe, fresnel)| is_measured(lobe, fresnel)) {
         // f32's numbers, so that device and CPU mean the same points.
-        let mut grid = Grid::of(
+        let grid = Grid::of(
             mus.iter().map(|&mu| f64::from(mu as f32)).collect(),
             roughnesses.iter().map(|r| f64::from((r * r) as f32)).collect(),
         );
-        if lobe.ndf == Ndf::Charlie {
-            grid.alphas.retain(|&alpha| alpha >= CHARLIE_LIMIT);
-            grid.mus.retain(|&mu| mu >= 1e-4);
-        }
         let integrand = Integrand::Specular(lobe, fresnel);
-        let truth = cpu::bake(integrand, &grid, &Rule::named("d10240")?, &|_| ());
+        let finest = match (lobe.ndf, lobe.diverges_at_grazing()) {
+            (Ndf::Charlie, true) => "b5920",
+            (Ndf::Charlie, false) => "r6080",
+            _ => "d10240",
+        };
+        let truth = cpu::bake(integrand, &grid, &Rule::named(finest)?, &|_| ());
         for name in ["h640", "h1536", "h6144"] {
             let rule = Rule::named(name)?;
             let Method::HalfVectors(nodes) = rule.method else { return Err(name.into()) };
