@@ -1,6 +1,6 @@
 //! The Vulkan host: the one place with `unsafe`. It needs Vulkan 1.1, one queue with compute, f32
-//! and u32, workgroups of 64, four storage buffers and 128 bytes of push constants: what every
-//! driver has.
+//! and u32, workgroups of 64, four storage buffers, a uniform of 16 KiB and 128 bytes of push
+//! constants: what every driver has.
 #![allow(
     unsafe_code,
     reason = "Vulkan is a C interface; every call's requirements are met in this module"
