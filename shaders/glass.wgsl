@@ -6,13 +6,16 @@
 // R and T.
 alias Weights = vec2<f32>;
 
-// Numbers of nodes for reflection and transmission.
+// Numbers of nodes for reflection and transmission, and the interface's ETA, K and CRITICAL.
 struct Rule {
     reflected_slopes: u32,
     reflected_azimuths: u32,
     total_azimuths: u32,
     transmitted_slopes: u32,
     transmitted_azimuths: u32,
+    eta: f32,
+    k: f32,
+    critical: f32,
 }
 
 // How near beyond the last azimuth, as a share of the interval in C^2, the root of 1 - F counts as

@@ -79,7 +79,8 @@ fn smooth_limit(mu: f32) -> f32 {{ return {limit}; }}
     [&slopes, module::HALF_VECTORS, &fresnel_source(fresnel), &glue].join("\n")
 }
 
-/// The WGSL that integrates a rough interface, and its type of integrals.
+/// The WGSL that integrates a rough interface, and its type of integrals, but for ETA, K and
+/// CRITICAL: interfaces that differ by these alone share a source.
 pub fn glass_source(interface: Interface, power: Power) -> String {
     let visibility = |separable| match separable {
         true => "separable(x, mu, area_l, area_v)",
@@ -87,14 +88,10 @@ pub fn glass_source(interface: Interface, power: Power) -> String {
     };
     let reflected = visibility(interface.lobe().masking == Masking::Separable);
     let transmitted = visibility(interface.transmission() == TransmissionMasking::Separable);
-    let (eta, k, critical) = (interface.eta(), interface.k(), interface.critical());
     let inside = interface.side() == Side::Inside;
     let arguments = "(x: f32, mu: f32, area_l: f32, area_v: f32) -> f32";
     let glue = format!(
-        "const ETA: f32 = {eta:e};
-const K: f32 = {k:e};
-const CRITICAL: f32 = {critical:e};
-const INSIDE = {inside};
+        "const INSIDE = {inside};
 fn reflected_visibility{arguments} {{ return {reflected}; }}
 fn transmitted_visibility{arguments} {{ return {transmitted}; }}
 "
@@ -184,10 +181,16 @@ pub fn kernel(source: &str, fresnel: Fresnel, function: &str) -> Result<Kernel> 
 /// The kernel that bakes R and T of a rough interface where they have to be integrated; zeros at
 /// α = 0.
 pub fn glass_kernel(interface: Interface, power: Power) -> Result<Kernel> {
-    let integrate = "fn integrate(view: vec2<f32>, alpha: f32, rule: Rule) -> Weights {
+    let integrate = "var<private> ETA: f32;
+var<private> K: f32;
+var<private> CRITICAL: f32;
+fn integrate(view: vec2<f32>, alpha: f32, rule: Rule) -> Weights {
     if alpha == 0.0 {
         return Weights(0.0);
     }
+    ETA = rule.eta;
+    K = rule.k;
+    CRITICAL = rule.critical;
     return glass(view.x, view.y, alpha, rule);
 }
 ";

@@ -4,7 +4,7 @@ use super::point_set::Point;
 use super::sampling::Sampler;
 use crate::backend::Gpu;
 use crate::backend::device::DeviceBake;
-use crate::backend::vulkan::bake::{Work, run};
+use crate::backend::vulkan::bake::{Work, run, words};
 use crate::backend::wgsl::{kernel, lobe_functions, lobe_source, module};
 use crate::brdf::{Fresnel, Masking, Microfacet, Ndf};
 use crate::error::Result;
@@ -56,7 +56,7 @@ pub fn bake_samples(
     let work = Work {
         kernel: kernel(&estimator_source(lobe, fresnel, sampler), fresnel, "estimate")?,
         nodes: point_data(points),
-        counts: vec![points.len(), 0, 0, 0],
+        rule: words(&[points.len(), 0, 0, 0]),
         count: fresnel.count(),
         critical: 0.0,
     };

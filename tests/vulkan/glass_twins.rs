@@ -290,14 +290,16 @@ fn cosine_of(square: f32, place: f32) -> f32 {
 fn all(gpu: &Gpu, side: Side) -> Result<(), Failed> {
     let Method::Glass(rule) = G560.method else { return Err("g560".into()) };
     let [slopes, azimuths, total, transmitted_slopes, transmitted_azimuths] = rule.counts(side);
+    let interface = interface(ggx(Masking::HeightCorrelated), IOR, side)?;
+    let (eta, k, critical) = (interface.eta(), interface.k(), interface.critical());
     let constants = format!(
-        "const RULE = Rule({slopes}u, {azimuths}u, {total}u, {transmitted_slopes}u, \
-         {transmitted_azimuths}u);\nconst FIRST_WHOLE = {}u;\n\
+        "const ETA: f32 = {eta:e};\nconst K: f32 = {k:e};\nconst CRITICAL: f32 = {critical:e};\n\
+         const RULE = Rule({slopes}u, {azimuths}u, {total}u, {transmitted_slopes}u, \
+         {transmitted_azimuths}u, ETA, K, CRITICAL);\nconst FIRST_WHOLE = {}u;\n\
          const FIRST_TRANSMITTED = {}u;\n",
         slopes + 2 * azimuths,
         slopes + 2 * (azimuths + total) + transmitted_slopes
     );
-    let interface = interface(ggx(Masking::HeightCorrelated), IOR, side)?;
     let nodes = rule.nodes(side);
     let data: Vec<[f32; 2]> = nodes.lists().into_iter().flatten().map(pair).collect();
     let source = [&glass_source(interface, Power::Two), &*constants, HELPERS].join("\n");

@@ -39,8 +39,8 @@ pub struct Work {
     pub kernel: Kernel,
     /// The nodes of its rule, or points.
     pub nodes: Vec<[f32; 2]>,
-    /// The fields of its `Rule`.
-    pub counts: Vec<usize>,
+    /// The fields of its `Rule`, numbers by their bits.
+    pub rule: Vec<u32>,
     /// Integrals for each point.
     pub count: usize,
     /// The cosine of the critical angle, or 0.
@@ -58,7 +58,7 @@ pub fn bake(
     let work = Work {
         kernel: bake_kernel(lobe, fresnel, rule.power)?,
         nodes: node_data(&rule.nodes()),
-        counts: rule.counts().into(),
+        rule: words(&rule.counts()),
         count: fresnel.count(),
         critical: 0.0,
     };
@@ -76,10 +76,12 @@ pub fn bake_glass(
 ) -> Result<DeviceBake> {
     let side = interface.side();
     let nodes = rule.nodes(side);
+    let numbers = [interface.eta(), interface.k(), interface.critical()];
+    let bits = numbers.map(|number| (number as f32).to_bits());
     let work = Work {
         kernel: glass_kernel(interface, rule.power(side))?,
         nodes: nodes.lists().into_iter().flatten().map(pair).collect(),
-        counts: rule.counts(side).into(),
+        rule: [words(&rule.counts(side)), bits.into()].concat(),
         count: 2,
         critical: interface.critical(),
     };
@@ -92,7 +94,7 @@ pub fn bake_glass(
 
 /// Runs a kernel at every point of the grid; the results are in its order.
 pub fn run(gpu: &Gpu, work: &Work, grid: &Grid, progress: Progress) -> Result<DeviceBake> {
-    let Work { kernel, nodes, counts, count, critical } = work;
+    let Work { kernel, nodes, rule, count, critical } = work;
     let (group, texel) = (kernel.workgroup, size_of::<f32>() * count);
     let largest = largest_tile(gpu, group, texel).min(grid.len());
     let mut tile = gpu.options().tile.unwrap_or(FIRST_TILE).clamp(1, largest);
@@ -110,8 +112,7 @@ pub fn run(gpu: &Gpu, work: &Work, grid: &Grid, progress: Progress) -> Result<De
     while integrals.len() < grid.len() * count {
         let first = integrals.len() / count;
         let texels = tile.min(grid.len() - first);
-        let push: Vec<u32> =
-            [first, first + texels].iter().chain(counts).map(|&n| n as u32).collect();
+        let push = [words(&[first, first + texels]), rule.clone()].concat();
         let groups = texels.div_ceil(group) as u32;
         let Elapsed { wall, device } =
             pipeline.run(bytemuck::cast_slice(&push), groups, texel * texels)?;
@@ -124,6 +125,11 @@ pub fn run(gpu: &Gpu, work: &Work, grid: &Grid, progress: Progress) -> Result<De
     }
     fail_on_validation_message(gpu)?;
     Ok(DeviceBake { integrals: Field::of(*count, integrals), device_seconds })
+}
+
+/// Counts as a shader reads them.
+pub fn words(counts: &[usize]) -> Vec<u32> {
+    counts.iter().map(|&count| count as u32).collect()
 }
 
 /// The most texels of so many bytes that fit the device's limits on buffers and workgroups.

@@ -13,6 +13,8 @@ pub struct Gpu {
     pub(super) queue_family: u32,
     pub(super) memory: vk::PhysicalDeviceMemoryProperties,
     pub(super) limits: vk::PhysicalDeviceLimits,
+    /// What the driver has compiled before: the slices of a table share a kernel.
+    pub(super) pipelines: vk::PipelineCache,
     /// The bits of the queue's clock that mean something; 0 where it has none.
     pub(super) timestamp_mask: u64,
     info: DeviceInfo,
@@ -50,6 +52,9 @@ impl Gpu {
                 instance.raw.get_physical_device_properties(found.physical).limits,
             )
         };
+        // SAFETY: the structure is valid. A driver that has no room for a cache compiles anew.
+        let pipelines = unsafe { device.create_pipeline_cache(&Default::default(), None) }
+            .unwrap_or(vk::PipelineCache::null());
         let (info, options) = (found.info, options.clone());
         let timestamp_mask = u64::MAX.checked_shr(64 - found.timestamp_bits).unwrap_or(0);
         let queue_family = found.queue_family;
@@ -59,6 +64,7 @@ impl Gpu {
             queue_family,
             memory,
             limits,
+            pipelines,
             timestamp_mask,
             info,
             options,
@@ -94,6 +100,7 @@ impl Drop for Gpu {
         // dropped after.
         unsafe {
             let _ = self.device.device_wait_idle();
+            self.device.destroy_pipeline_cache(self.pipelines, None);
             self.device.destroy_device(None);
         }
     }

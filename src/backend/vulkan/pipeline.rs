@@ -110,7 +110,7 @@ impl<'g, 'b> Pipeline<'g, 'b> {
             let create =
                 [vk::ComputePipelineCreateInfo::default().stage(stage).layout(self.layout)];
             let pipelines = device
-                .create_compute_pipelines(vk::PipelineCache::null(), &create, None)
+                .create_compute_pipelines(self.gpu.pipelines, &create, None)
                 .map_err(|(_, result)| failed("compiling the shader")(result))?;
             self.pipeline = pipelines[0];
         }
@@ -222,8 +222,9 @@ impl<'g, 'b> Pipeline<'g, 'b> {
         use vk::{AccessFlags as Access, PipelineStageFlags as Stage};
         let (device, command) = (&self.gpu.device, self.command);
         let (own, copy) = (self.results.own.raw, self.results.copy.raw);
-        let poisoned = (Stage::TRANSFER, Access::TRANSFER_WRITE);
-        let written = (Stage::COMPUTE_SHADER, Access::SHADER_WRITE);
+        let transferred = (Stage::TRANSFER, Access::TRANSFER_WRITE);
+        // WGSL has no buffers that are written alone.
+        let integrated = (Stage::COMPUTE_SHADER, Access::SHADER_READ | Access::SHADER_WRITE);
         let copied = (Stage::TRANSFER, Access::TRANSFER_READ);
         let has_clock = self.timestamps != vk::QueryPool::null();
         let (bind, sets) = (vk::PipelineBindPoint::COMPUTE, [self.set]);
@@ -235,11 +236,7 @@ impl<'g, 'b> Pipeline<'g, 'b> {
                 device.cmd_reset_query_pool(command, self.timestamps, 0, 2);
             }
             device.cmd_fill_buffer(command, own, 0, bytes, POISON);
-            // WGSL has no buffers that are written alone.
-            self.barrier(
-                poisoned,
-                (Stage::COMPUTE_SHADER, Access::SHADER_READ | Access::SHADER_WRITE),
-            );
+            self.barrier(transferred, integrated);
             device.cmd_bind_pipeline(command, bind, self.pipeline);
             device.cmd_bind_descriptor_sets(command, bind, self.layout, 0, &sets, &[]);
             if !push.is_empty() {
@@ -254,9 +251,9 @@ impl<'g, 'b> Pipeline<'g, 'b> {
             if has_clock {
                 device.cmd_write_timestamp(command, Stage::COMPUTE_SHADER, self.timestamps, 1);
             }
-            self.barrier(written, copied);
+            self.barrier(integrated, copied);
             device.cmd_copy_buffer(command, own, copy, &regions);
-            self.barrier(poisoned, (Stage::HOST, Access::HOST_READ));
+            self.barrier(transferred, (Stage::HOST, Access::HOST_READ));
         }
     }
 
