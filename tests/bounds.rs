@@ -17,8 +17,8 @@ use splitsum::integrate::double_exponential::DoubleExponentialRule;
 use splitsum::integrate::errors::Errors;
 use splitsum::integrate::rule::{MARGIN, Method, Rule};
 use splitsum::integrate::rules::{
-    B5920, CLOSED_FORM, D6144, D10240, H640, L4608, P480, R456, REFERENCE, RULES, S1440, S1616,
-    S2016, S2080, S2304, S2560,
+    B5920, CLOSED_FORM, D6144, D10240, H640, L4608, P480, R456, REFERENCE, RULES, S896, S1008,
+    S1120, S1248, S1360, S1440, S1616, S1792, S2080, S2304, S2560,
 };
 use splitsum::integrate::{Integrand, ScaleBias};
 use splitsum::units::{SMALLEST_ALPHA, SMALLEST_COSINE};
@@ -187,9 +187,12 @@ fn rules_serve_for_the_lobes_that_are_named_and_for_no_other() {
         );
     }
     assert_eq!((served(&L4608), served(&S2304), served(&CLOSED_FORM)), (5, 4, 0));
-    // GGX's five, Beckmann's four and Walter's two, Blinn-Phong's three, Charlie's three.
-    let interpolants = [S1440, S2080, S2560, S2016, S1616].map(|rule| served(&rule));
-    assert_eq!(interpolants, [5, 6, 3, 2, 1]);
+    // GGX's two pairs of terms, Beckmann's three and Walter's two, Blinn-Phong's two, and Charlie's
+    // two.
+    let interpolants = [S1440, S1120, S2080, S2560, S1792, S1616].map(|rule| served(&rule));
+    assert_eq!(interpolants, [2, 2, 5, 2, 1, 1]);
+    // The implicit term of each, which Walter's rational function has no part in.
+    assert_eq!([S896, S1008, S1248, S1360].map(|rule| served(&rule)), [1, 1, 1, 1]);
     assert_eq!((served(&P480), served(&R456), served(&B5920)), (9, 2, 1));
     for rule in RULES.iter().filter(|rule| {
         !["closed-form", "l", "s", "p", "r4", "r9", "r2", "r6", "b"]

@@ -12,14 +12,14 @@ use splitsum::integrate::ScaleBias;
 use splitsum::integrate::rule::{CHARLIE_UNKNOWN, Rule};
 use splitsum::integrate::rules::REFERENCE;
 use splitsum::integrate::rules::{
-    B2544, B5920, D6144, D10240, L4608, P480, P1024, R456, R976, R2552, R6080, S1440, S1616, S2016,
-    S2080, S2304, S2560,
+    B2544, B5920, D10240, L4608, P480, P1024, R456, R976, R2552, R6080, S896, S1008, S1120, S1248,
+    S1360, S1440, S1616, S1792, S2080, S2304, S2560,
 };
 
 /// The rules that decide how values round.
-const STAGES: [Rule; 17] = [
-    S1440, S2304, S2080, S2560, S2016, S1616, L4608, P480, P1024, R456, R976, R2552, R6080, B2544,
-    B5920, D6144, D10240,
+const STAGES: [Rule; 21] = [
+    S1440, S2304, S2080, S2560, S1792, S1616, S896, S1120, S1008, S1248, S1360, L4608, P480, P1024,
+    R456, R976, R2552, R6080, B2544, B5920, D10240,
 ];
 
 /// Points in all: 100,000, or what SPLITSUM_COVERAGE says (.ci/run: a million).

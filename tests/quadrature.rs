@@ -195,8 +195,8 @@ fn a_lane_holds_the_bits_of_a_single_number() {
     for lobe in Microfacet::all() {
         let points = domain_of(lobe, 37);
         let names = [
-            "h56", "l288", "p480", "r456", "b2544", "d6144", "s640", "s2080", "s2560", "s2016",
-            "s1616",
+            "h56", "l288", "p480", "r456", "b2544", "d6144", "s640", "s2080", "s2560", "s1792",
+            "s1616", "s896", "s1120", "s1008", "s1248", "s1360",
         ];
         for name in names {
             let rule = Rule::named(name).unwrap();

@@ -118,6 +118,8 @@ pub struct Columns {
     /// Interpolated.
     pub s640: Bound,
     /// Interpolated.
+    pub s1120: Bound,
+    /// Interpolated.
     pub s1440: Bound,
     /// Interpolated.
     pub s2304: Bound,
@@ -126,9 +128,17 @@ pub struct Columns {
     /// Interpolated.
     pub s2560: Bound,
     /// Interpolated.
-    pub s2016: Bound,
+    pub s1792: Bound,
     /// Interpolated.
     pub s1616: Bound,
+    /// Interpolated.
+    pub s896: Bound,
+    /// Interpolated.
+    pub s1008: Bound,
+    /// Interpolated.
+    pub s1248: Bound,
+    /// Interpolated.
+    pub s1360: Bound,
     /// Glass.
     pub g112: Bound,
     /// Glass.
@@ -148,18 +158,13 @@ pub const fn columns(lobe: Microfacet, alpha: f64) -> &'static Columns {
     match lobe.ndf {
         Ndf::Ggx if alpha < WIDE_LAYER => &GGX_BELOW_WIDE_LAYER,
         Ndf::Ggx => match lobe.masking {
-            Masking::Implicit => &GGX_IMPLICIT,
-            Masking::Separable | Masking::SchlickSmith => &GGX_SEPARABLE,
+            Masking::Separable | Masking::SchlickSmith | Masking::Implicit => &GGX_SEPARABLE,
             _ => &GGX,
         },
         Ndf::Beckmann => &BECKMANN,
         Ndf::BeckmannWalter => &BECKMANN_WALTER,
-        Ndf::BlinnPhong => match lobe.masking {
-            Masking::Implicit if alpha > BLINN_PHONG_LIMIT => &BLINN_PHONG_IMPLICIT_BEYOND_LIMIT,
-            Masking::Implicit => &BLINN_PHONG_IMPLICIT,
-            _ if alpha > BLINN_PHONG_LIMIT => &BLINN_PHONG_BEYOND_LIMIT,
-            _ => &BLINN_PHONG,
-        },
+        Ndf::BlinnPhong if alpha > BLINN_PHONG_LIMIT => &BLINN_PHONG_BEYOND_LIMIT,
+        Ndf::BlinnPhong => &BLINN_PHONG,
         Ndf::Charlie => match lobe.masking {
             _ if alpha >= WIDE_LAYER => &CHARLIE,
             _ if alpha >= CHARLIE_LIMIT => &CHARLIE_BELOW_WIDE_LAYER,
@@ -181,8 +186,10 @@ const GGX_BELOW_WIDE_LAYER: Columns = Columns {
     l512: all(1e-5),
     l4608: sharp(5e-9, 8e-8, 1e-12),
     s640: all(1e-5),
+    s1120: sharp(1.2e-7, 5e-7, 1e-9),
     s1440: sharp(1.2e-7, 2e-6, 4e-9),
     s2304: sharp(3e-8, 8e-8, 3e-11),
+    s896: sharp(1.2e-7, 5e-7, 1e-9),
     ..SMOOTH
 };
 
@@ -197,12 +204,11 @@ const GGX: Columns = Columns {
 /// With a term of each direction for itself.
 const GGX_SEPARABLE: Columns = Columns {
     l4608: sharp(1.5e-12, 1e-11, 2e-14),
-    s1440: sharp(1.2e-8, 3e-7, 2e-10),
+    s1120: sharp(3e-9, 1e-7, 3e-10),
     s2304: sharp(1.6e-9, 3e-8, 1.5e-11),
+    s896: sharp(1e-9, 1e-7, 3e-10),
     ..GGX_BELOW_WIDE_LAYER
 };
-
-const GGX_IMPLICIT: Columns = Columns { s1440: sharp(3e-9, 1e-7, 7.5e-10), ..GGX_SEPARABLE };
 
 const BECKMANN: Columns = Columns {
     h56: all(2.5e-3),
@@ -214,6 +220,7 @@ const BECKMANN: Columns = Columns {
     p480: sharp(5e-9, 1e-7, 1e-12),
     p1024: sharp(2.5e-11, 1e-9, 1e-15),
     s2080: sharp(8e-8, 3e-7, 3e-10),
+    s1008: sharp(1.2e-8, 5e-7, 6.5e-10),
     ..SMOOTH
 };
 
@@ -241,16 +248,13 @@ const BLINN_PHONG: Columns = Columns {
     p480: sharp(7e-9, 1e-7, 1e-12),
     p1024: sharp(2.5e-11, 1e-9, 1e-15),
     s2560: sharp(1.6e-7, 1e-6, 3e-10),
+    s1248: sharp(1.8e-8, 5e-7, 6.5e-10),
     ..SMOOTH
 };
 
 /// Where the lobe is so wide that it does not end.
-const BLINN_PHONG_BEYOND_LIMIT: Columns = Columns { p480: NONE, p1024: NONE, ..BLINN_PHONG };
-
-const BLINN_PHONG_IMPLICIT: Columns = Columns { s2560: sharp(4e-9, 5e-9, 3e-10), ..BLINN_PHONG };
-
-const BLINN_PHONG_IMPLICIT_BEYOND_LIMIT: Columns =
-    Columns { s2560: sharp(6e-10, 1e-8, 5e-11), ..BLINN_PHONG_BEYOND_LIMIT };
+const BLINN_PHONG_BEYOND_LIMIT: Columns =
+    Columns { p480: NONE, p1024: NONE, s1248: sharp(6e-10, 1e-8, 5e-11), ..BLINN_PHONG };
 
 const CHARLIE: Columns = Columns { s1616: sharp(6e-8, 5e-7, 1.5e-9), ..CHARLIE_BELOW_WIDE_LAYER };
 
@@ -275,8 +279,9 @@ const CHARLIE_BELOW_LIMIT: Columns = Columns {
     r6080: sharp(7e-11, 1.5e-8, 4e-12),
     b2544: sharp(6e-8, 5e-7, 1.2e-9),
     b5920: sharp(2.5e-8, 2e-7, 2e-10),
-    s2016: sharp(1.5e-8, 3e-7, 4e-10),
+    s1792: sharp(2e-8, 5e-7, 6e-10),
     s1616: sharp(3e-7, 1.2e-6, 4e-9),
+    s1360: sharp(1.5e-8, 5e-7, 4e-10),
     ..SMOOTH
 };
 
@@ -287,8 +292,9 @@ const CHARLIE_UNKNOWN_BELOW: Columns = Columns {
     r6080: NONE,
     b2544: NONE,
     b5920: NONE,
-    s2016: NONE,
+    s1792: NONE,
     s1616: NONE,
+    s1360: NONE,
     reference: all(2e-6),
     ..CHARLIE_BELOW_LIMIT
 };
@@ -337,12 +343,17 @@ const SMOOTH: Columns = Columns {
     b2544: NONE,
     b5920: NONE,
     s640: NONE,
+    s1120: NONE,
     s1440: NONE,
     s2304: NONE,
     s2080: NONE,
     s2560: NONE,
-    s2016: NONE,
+    s1792: NONE,
     s1616: NONE,
+    s896: NONE,
+    s1008: NONE,
+    s1248: NONE,
+    s1360: NONE,
     g112: NONE,
     g560: NONE,
     g904: NONE,

@@ -31,7 +31,7 @@ use super::light_planes::LightPlaneRule;
 use super::rings::RingRule;
 use super::{Field, Integrals};
 use crate::brdf::fresnel::Basis;
-use crate::brdf::{Microfacet, Ndf};
+use crate::brdf::{Masking, Microfacet, Ndf};
 use crate::numeric::lanes::{F64x8, Real, Vector};
 use std::array::from_fn;
 
@@ -51,8 +51,8 @@ pub struct InterpolantRule {
     pub pieces: &'static [Piece],
     /// The distributions that it was made for.
     pub distributions: &'static [Ndf],
-    /// Whether it was made for the lobe whose albedo diverges at grazing, or for the others.
-    pub diverging: bool,
+    /// The masking terms that it was made for.
+    pub maskings: &'static [Masking],
     /// What is subtracted from E before it is followed.
     pub beyond: Beyond,
 }

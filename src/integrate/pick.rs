@@ -1,6 +1,7 @@
 //! Picks a rule: by its name, or the cheapest that keeps a tolerance.
 
 use super::Integrand;
+use super::bounds::Bound;
 use super::errors::f32_arithmetic;
 use super::rule::{Method, Rule};
 use super::rules::{
@@ -61,14 +62,18 @@ impl Rule {
 
     /// The approximate time that a finer rule takes for the values that this one leaves undecided.
     fn seconds_after_rounding(&self, integrand: Integrand, texels: usize) -> f64 {
-        // Measured with f16: s1440, which errs by 4e-8, leaves 0.6 % of GGX's texels, s2304 with
-        // 4e-9 0.1 %, s2080 with 8e-8 0.3 % of Beckmann's.
-        const UNDECIDED_BY_ERROR: f64 = 1.5e5;
-        // That of most rows.
-        let error = |rule: &Rule| rule.bound_at(integrand, 1.0);
+        // Measured with f16, within a factor of two: of the texels s1440, which errs by 4.5e-8 and
+        // where B is small by 2e-10, leaves 0.6 %, s2304 with 4e-9 and 2e-11 0.1 %, s1360 with
+        // 1.5e-8 and 5e-10 1.2 %.
+        const UNDECIDED_BY_ERROR: f64 = 5e4;
+        const UNDECIDED_BY_ABSOLUTE: f64 = 1e7;
+        // Those of most rows.
+        let bounds = |rule: &Rule| rule.bounds_at(integrand, 1.0);
+        let Bound { all, absolute, .. } = bounds(self);
         let finer =
-            FINER.into_iter().find(|rule| rule.applies_to(integrand) && error(rule) < error(self));
-        let undecided = (UNDECIDED_BY_ERROR * error(self)).min(1.0) * texels as f64;
+            FINER.into_iter().find(|rule| rule.applies_to(integrand) && bounds(rule).all < all);
+        let share = UNDECIDED_BY_ERROR * all + UNDECIDED_BY_ABSOLUTE * absolute;
+        let undecided = share.min(1.0) * texels as f64;
         finer.map_or(0.0, |finer| undecided * finer.seconds(integrand, 1))
     }
 

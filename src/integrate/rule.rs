@@ -8,7 +8,7 @@ use super::bounds::{Bound, Columns};
 use super::double_exponential::DoubleExponentialRule;
 use super::glass::GlassRule;
 use super::half_vectors::HalfVectorRule;
-use super::interpolant::{Beyond, InterpolantRule};
+use super::interpolant::InterpolantRule;
 use super::light_directions::LightDirectionRule;
 use super::light_planes::LightPlaneRule;
 use super::rings::RingRule;
@@ -120,12 +120,8 @@ fn ends_like_gaussian(ndf: Ndf) -> bool {
     }
 }
 
-/// Interpolants of E itself, not of what it is beyond a mirror's, do not follow the implicit term,
-/// whose albedo falls with μ².
 fn interpolant_serves(rule: &InterpolantRule, lobe: Microfacet) -> bool {
-    rule.distributions.contains(&lobe.ndf)
-        && (rule.beyond == Beyond::Limit || lobe.masking != Masking::Implicit)
-        && rule.diverging == lobe.diverges_at_grazing()
+    rule.distributions.contains(&lobe.ndf) && rule.maskings.contains(&lobe.masking)
 }
 
 /// The other rules take every term that depends on n·l and n·v alone: the double exponential ones

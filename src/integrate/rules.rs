@@ -8,7 +8,8 @@ use super::glass::{Counts, GlassRule};
 use super::half_vectors::HalfVectorRule;
 use super::interpolant::InterpolantRule;
 use super::interpolant::nodes::{
-    S640_NODES, S1440_NODES, S1616_NODES, S2016_NODES, S2080_NODES, S2304_NODES, S2560_NODES,
+    S640_NODES, S896_NODES, S1008_NODES, S1120_NODES, S1248_NODES, S1360_NODES, S1440_NODES,
+    S1616_NODES, S1792_NODES, S2080_NODES, S2304_NODES, S2560_NODES,
 };
 use super::light_directions::LightDirectionRule;
 use super::light_planes::LightPlaneRule;
@@ -127,14 +128,14 @@ pub const L512: Rule = rule("l512", Method::LightDirections(L512_NODES), |bounds
 /// its domain.
 pub const L4608: Rule = rule("l4608", Method::LightDirections(L4608_NODES), |bounds| bounds.l4608);
 
-/// Over planes of light directions, the cheaper.
-pub const P480: Rule = light_planes("p480", [40, 12], |bounds| bounds.p480);
+/// Over planes of light directions, the cheaper; [`S1008`] takes its integrals.
+pub const P480: Rule = rule("p480", Method::LightPlanes(P480_NODES), |bounds| bounds.p480);
 /// Over planes of light directions, the finer.
-pub const P1024: Rule = light_planes("p1024", [64, 16], |bounds| bounds.p1024);
+pub const P1024: Rule = rule("p1024", Method::LightPlanes(P1024_NODES), |bounds| bounds.p1024);
 
 /// About a ring, the cheapest.
 pub const R456: Rule = ring("r456", ring_nodes([24, 16, 12, 6]), |bounds| bounds.r456);
-/// About a ring; [`S2016`] takes its integrals.
+/// About a ring; [`S1792`] takes its integrals.
 pub const R976: Rule = ring("r976", R976_NODES, |bounds| bounds.r976);
 /// About a ring.
 pub const R2552: Rule = ring("r2552", ring_nodes([56, 42, 20, 10]), |bounds| bounds.r2552);
@@ -152,7 +153,10 @@ pub const B5920: Rule = bent_ring(
 
 /// Interpolated, the cheapest for GGX.
 pub const S640: Rule = interpolant("s640", S640_NODES, |bounds| bounds.s640);
-/// Interpolated, for GGX: the first stage of certification.
+/// Interpolated, for GGX with a term of each direction for itself: its first stage of
+/// certification.
+pub const S1120: Rule = interpolant("s1120", S1120_NODES, |bounds| bounds.s1120);
+/// Interpolated, for GGX with a term that couples them: its first stage of certification.
 pub const S1440: Rule = interpolant("s1440", S1440_NODES, |bounds| bounds.s1440);
 /// Interpolated, the finest for GGX.
 pub const S2304: Rule = interpolant("s2304", S2304_NODES, |bounds| bounds.s2304);
@@ -160,10 +164,18 @@ pub const S2304: Rule = interpolant("s2304", S2304_NODES, |bounds| bounds.s2304)
 pub const S2080: Rule = interpolant("s2080", S2080_NODES, |bounds| bounds.s2080);
 /// Interpolated in pieces, for Blinn-Phong: the first stage of certification.
 pub const S2560: Rule = interpolant("s2560", S2560_NODES, |bounds| bounds.s2560);
-/// Interpolated in pieces, for Charlie: the first stage of certification.
-pub const S2016: Rule = interpolant("s2016", S2016_NODES, |bounds| bounds.s2016);
+/// Interpolated in pieces, for Charlie with Neubelt's term: the first stage of certification.
+pub const S1792: Rule = interpolant("s1792", S1792_NODES, |bounds| bounds.s1792);
 /// Interpolated in pieces, for Charlie with its fitted term: the first stage of certification.
 pub const S1616: Rule = interpolant("s1616", S1616_NODES, |bounds| bounds.s1616);
+/// Interpolated, for GGX with the implicit term: the first stage of certification.
+pub const S896: Rule = interpolant("s896", S896_NODES, |bounds| bounds.s896);
+/// Interpolated in pieces, for Beckmann with it: the first stage of certification.
+pub const S1008: Rule = interpolant("s1008", S1008_NODES, |bounds| bounds.s1008);
+/// Interpolated in pieces, for Blinn-Phong with it: the first stage of certification.
+pub const S1248: Rule = interpolant("s1248", S1248_NODES, |bounds| bounds.s1248);
+/// Interpolated in pieces, for Charlie with it: the first stage of certification.
+pub const S1360: Rule = interpolant("s1360", S1360_NODES, |bounds| bounds.s1360);
 
 /// What decides the values that a first rule leaves undecided, in this order: of those that apply,
 /// rules that are finer on some rows than all before.
@@ -171,7 +183,7 @@ pub const FINER: [Rule; 10] =
     [G904, G4536, L4608, P1024, R2552, R6080, B5920, D10240, REFERENCE, CLOSED_FORM];
 
 /// Every rule.
-pub const RULES: [Rule; 33] = [
+pub const RULES: [Rule; 38] = [
     CLOSED_FORM,
     H56,
     H130,
@@ -194,12 +206,17 @@ pub const RULES: [Rule; 33] = [
     B2544,
     B5920,
     S640,
+    S1120,
     S1440,
     S2304,
     S2080,
     S2560,
-    S2016,
+    S1792,
     S1616,
+    S896,
+    S1008,
+    S1248,
+    S1360,
     G112,
     G560,
     G904,
@@ -219,6 +236,10 @@ pub const L512_NODES: LightDirectionRule =
 /// The nodes of [`L4608`].
 pub const L4608_NODES: LightDirectionRule =
     LightDirectionRule { slope: 96, azimuth: 48, power: Power::Four };
+
+/// The nodes of [`P480`].
+pub const P480_NODES: LightPlaneRule = LightPlaneRule { slope: 40, azimuth: 12 };
+const P1024_NODES: LightPlaneRule = LightPlaneRule { slope: 64, azimuth: 16 };
 
 /// The nodes of [`R976`].
 pub const R976_NODES: RingRule = ring_nodes([36, 24, 14, 8]);
@@ -241,16 +262,12 @@ const fn nodes(counts: [usize; 4], power: Power) -> HalfVectorRule {
     HalfVectorRule { radial, azimuth, radial_horizon, azimuth_horizon, power }
 }
 
-const fn light_planes(name: &'static str, [slope, azimuth]: [usize; 2], column: Column) -> Rule {
-    rule(name, Method::LightPlanes(LightPlaneRule { slope, azimuth }), column)
-}
-
 const fn ring(name: &'static str, nodes: RingRule, column: Column) -> Rule {
     rule(name, Method::Rings(nodes), column)
 }
 
 /// Radial nodes and azimuths where the horizon cuts the circle, then where it does not.
-pub(super) const fn ring_nodes(counts: [usize; 4]) -> RingRule {
+const fn ring_nodes(counts: [usize; 4]) -> RingRule {
     let [radial, azimuth, radial_full, azimuth_full] = counts;
     RingRule { radial, azimuth, radial_full, azimuth_full }
 }
