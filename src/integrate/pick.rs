@@ -62,9 +62,9 @@ impl Rule {
 
     /// The approximate time that a finer rule takes for the values that this one leaves undecided.
     fn seconds_after_rounding(&self, integrand: Integrand, texels: usize) -> f64 {
-        // Measured with f16, within a factor of two: of the texels s1440, which errs by 4.5e-8 and
-        // where B is small by 2e-10, leaves 0.6 %, s2304 with 4e-9 and 2e-11 0.1 %, s1360 with
-        // 1.5e-8 and 5e-10 1.2 %.
+        // Fitted to what was measured with f16, within a factor of three: of the texels s1440,
+        // which errs by 4.5e-8 and where B is small by 2e-10, leaves 0.6 %, s2304 with 4e-9 and
+        // 2e-11 0.1 %, s1360 with 1.5e-8 and 4e-10 0.9 %.
         const UNDECIDED_BY_ERROR: f64 = 5e4;
         const UNDECIDED_BY_ABSOLUTE: f64 = 1e7;
         // Those of most rows.

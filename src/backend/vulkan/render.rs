@@ -1,6 +1,6 @@
 //! A row of a preview on a device.
 
-use super::bake::node_data;
+use super::bake::{node_data, words};
 use super::buffer::{Buffer, Results};
 use super::gpu::Gpu;
 use super::pipeline::Pipeline;
@@ -36,8 +36,7 @@ pub fn render_row(
     let pixels = Results::new(gpu, bytes, bytes)?;
     let side = row.table.len().isqrt();
     let job = [row.cell, row.columns.len(), row.scene as usize, side];
-    let (job, counts) = (job.map(|n| n as u32), rule.counts().map(|n| n as u32));
-    let push = [job, counts].concat();
+    let push = words(&[job, rule.counts()].concat());
     let buffers = [&nodes, &columns, &table, &pixels.own];
     let groups = count.div_ceil(kernel.workgroup) as u32;
     let pipeline = Pipeline::new(gpu, kernel, &buffers, &pixels)?;
