@@ -201,7 +201,7 @@ fn every_unbiased_estimator_converges_to_the_reference() {
             if blind && alpha < 0.3 {
                 continue;
             }
-            let truth = Integrator::new(REFERENCE).integrate(lobe, mu, alpha);
+            let truth = Integrator(REFERENCE).integrate(lobe, mu, alpha);
             let view = View::seen_from(lobe, mu, alpha);
             let value = |points: Vec<Point>| {
                 estimate(sampler, &view, &points, &sampled_half_vectors(lobe.ndf, alpha, &points))
@@ -235,7 +235,7 @@ fn scrambled_points_converge_faster_than_chance() {
     let lobe = common::ggx(Masking::HeightCorrelated);
     let (mu, alpha) = (0.6, 0.5);
     let (view, truth) =
-        (View::seen_from(lobe, mu, alpha), Integrator::new(REFERENCE).integrate(lobe, mu, alpha));
+        (View::seen_from(lobe, mu, alpha), Integrator(REFERENCE).integrate(lobe, mu, alpha));
     let rms = |count: usize| {
         let error = |seed: u64| {
             estimate(Sampler::SphericalCap, &view, &PointSet::Sobol.points(count, 2 * seed), &[]).a

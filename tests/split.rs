@@ -110,7 +110,7 @@ fn over_light(factor: impl Fn(f64) -> f64) -> f64 {
 
 #[test]
 fn kulla_and_conty_give_back_what_is_lost() {
-    let integrator = Integrator::new(h6144());
+    let integrator = Integrator(h6144());
     for ndf in [Ndf::Ggx, Ndf::Beckmann] {
         let lobe = Microfacet { ndf, masking: Masking::HeightCorrelated };
         let table = bake(lobe, 0.04, EnergyChannels::KullaConty, h6144(), (5, 5));
@@ -128,7 +128,7 @@ fn kulla_and_conty_give_back_what_is_lost() {
 fn turquins_factor_restores_the_lobe() {
     let lobe = ggx(Masking::Separable);
     let table = bake(lobe, 0.04, EnergyChannels::Turquin, h6144(), (9, 9));
-    let integrator = Integrator::new(h6144());
+    let integrator = Integrator(h6144());
     for (i, j) in [(0, 3), (3, 8), (8, 5)] {
         let r = table.y().value(j);
         let e = integrator.integrate(lobe, table.x().value(i), r * r).e();
@@ -139,7 +139,7 @@ fn turquins_factor_restores_the_lobe() {
 #[test]
 fn the_reciprocal_split_closes_in_a_white_furnace_and_the_naive_one_does_not() {
     let lobe = ggx(Masking::HeightCorrelated);
-    let integrator = Integrator::new(h6144());
+    let integrator = Integrator(h6144());
     let mut worst_naive = 0.0f64;
     for f0 in [0.02, 0.04, 0.08, 0.5] {
         let table = bake(lobe, f0, EnergyChannels::Split, h6144(), (9, 5));

@@ -37,7 +37,7 @@ const BECKMANN: Microfacet = Microfacet { ndf: Ndf::Beckmann, masking: Masking::
 /// n·v at which A of the rule, at α = 1/4, lies `distance` above the boundary of rounding that is
 /// next above A(0.6).
 fn beside_a_boundary(rule: &Rule, distance: f64) -> f64 {
-    let integrator = Integrator::new(*rule);
+    let integrator = Integrator(*rule);
     let a = |mu| integrator.integrate(BECKMANN, mu, 0.25).a;
     let step = splitsum::numeric::half::step(a(0.6));
     let target = ((a(0.6) / step).floor() + 1.5) * step + distance;
@@ -55,7 +55,7 @@ fn a_stage_decides_nothing_nearer_than_its_error_and_twice_the_next_ones() {
     let lut = part(BECKMANN);
     let some = Grid::of(vec![0.6], vec![0.25]);
     let rules = rules(&task(&lut, &some, Precision::F16));
-    let value = Integrator::new(rules[0]).integrate(BECKMANN, 0.6, 0.25);
+    let value = Integrator(rules[0]).integrate(BECKMANN, 0.6, 0.25);
     let [own, last] = [0, rules.len() - 2].map(|i| errors_at(&rules[i], BECKMANN, 0.25, value).a);
     // The last rule before the reference is not the first, and its margin is seen.
     assert!(rules.len() == 3 && last > 0.0);

@@ -4,15 +4,14 @@
 
 use libtest_mimic::{Failed, Trial};
 use splitsum::backend::cpu;
-use splitsum::brdf::fresnel::Schlick;
 use splitsum::brdf::{Fresnel, Masking, Microfacet, Ndf};
 use splitsum::certify::decision::Task;
 use splitsum::certify::stages::Stages;
 use splitsum::certify::ziv::{DeviceTable, certify_band};
 use splitsum::choice::Choice;
-use splitsum::integrate::rule::{Method, Rule};
+use splitsum::integrate::rule::Rule;
 use splitsum::integrate::rules::REFERENCE;
-use splitsum::integrate::{Field, Kernel, ScaleBias};
+use splitsum::integrate::{Field, ScaleBias};
 use splitsum::lut::{Dfg, DfgChannels, Lut, Part};
 use splitsum::numeric::half;
 use splitsum::numeric::quadrature::tanh_sinh::tanh_sinh;
@@ -75,41 +74,13 @@ pub fn domain(count: usize) -> Vec<(f64, f64)> {
     points
 }
 
-/// A rule at single points, in single numbers where the CPU takes eight at a time.
-pub struct Integrator {
-    rule: Rule,
-    at: Box<dyn Fn(Microfacet, f64, f64) -> [f64; 2] + Sync>,
-}
-
-/// A kernel in single numbers.
-fn single<K: Kernel>(nodes: K) -> Box<dyn Fn(Microfacet, f64, f64) -> [f64; 2] + Sync> {
-    Box::new(move |lobe, mu, alpha| nodes.integrate(lobe, Schlick, mu, alpha).0)
-}
+/// A rule at single points.
+pub struct Integrator(pub Rule);
 
 impl Integrator {
-    /// The nodes of a rule.
-    pub fn new(rule: Rule) -> Self {
-        let at = match rule.method {
-            Method::HalfVectors(rule) => single(rule.nodes()),
-            Method::LightDirections(rule) => single(rule.nodes()),
-            Method::LightPlanes(rule) => single(rule.nodes()),
-            Method::Rings(rule) => single(rule.nodes()),
-            Method::BentRings(rule) => single(rule.nodes()),
-            Method::DoubleExponential(rule) => single(rule.nodes()),
-            Method::Interpolant(_) => Box::new(move |lobe, mu, alpha| {
-                cpu::bake_points(lobe, &[(mu, alpha)], &rule).scale_bias()[0].array()
-            }),
-            Method::Glass(_) | Method::ClosedForm => Box::new(|_, _, _| [f64::NAN; 2]),
-        };
-        Integrator { rule, at }
-    }
-
-    /// (A, B) of a lobe; NaN where the rule is no quadrature for specular lobes.
+    /// (A, B) of a lobe.
     pub fn integrate(&self, lobe: Microfacet, mu: f64, alpha: f64) -> ScaleBias {
-        if alpha == 0.0 {
-            return cpu::bake_points(lobe, &[(mu, alpha)], &self.rule).scale_bias()[0];
-        }
-        (self.at)(lobe, mu, alpha).into()
+        cpu::bake_points(lobe, &[(mu, alpha)], &self.0).scale_bias()[0]
     }
 }
 
@@ -189,17 +160,21 @@ pub fn errors_at(rule: &Rule, lobe: Microfacet, alpha: f64, value: ScaleBias) ->
 /// A and B averaged over all directions, by the reference on double exponential nodes in pieces
 /// that meet at these n·v.
 pub fn average_in_pieces(lobe: Microfacet, alpha: f64, middles: &[f64]) -> ScaleBias {
-    let integrator = Integrator::new(REFERENCE);
-    let mut sum = ScaleBias::default();
     let mut ends = [&[0.0, 1.0], middles].concat();
     ends.sort_by(f64::total_cmp);
+    let mut directions = Vec::new();
+    let mut weights = Vec::new();
     for piece in ends.windows(2) {
         let (start, length) = (piece[0], piece[1] - piece[0]);
         for node in tanh_sinh(72) {
             let mu = start + length * node.from_start;
-            add(&mut sum, 2.0 * length * node.weight * mu, integrator.integrate(lobe, mu, alpha));
+            directions.push((mu, alpha));
+            weights.push(2.0 * length * node.weight * mu);
         }
     }
+    let integrals = cpu::bake_points(lobe, &directions, &REFERENCE).scale_bias();
+    let mut sum = ScaleBias::default();
+    integrals.iter().zip(&weights).for_each(|(&part, &weight)| add(&mut sum, weight, part));
     sum
 }
 
