@@ -322,7 +322,7 @@ fn check_part(lut: &Lut, grid: &Grid, accuracy: Accuracy, precision: Precision) 
             Err(Error::bad_input("rule", "one with its own bounds", rule.name, cure))
         }
         (Accuracy::Rule(rule), _) => {
-            let bounded = |&alpha: &f64| rule.bound_at(integrand, alpha).is_finite();
+            let bounded = |&alpha: &f64| rule.bound_at(integrand, 0.0, alpha).is_finite();
             if rule.applies_to(integrand) && grid.alphas.iter().all(bounded) {
                 return Ok(());
             }

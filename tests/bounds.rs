@@ -17,8 +17,8 @@ use splitsum::integrate::double_exponential::DoubleExponentialRule;
 use splitsum::integrate::errors::Errors;
 use splitsum::integrate::rule::{MARGIN, Method, Rule};
 use splitsum::integrate::rules::{
-    B5920, CLOSED_FORM, D6144, D10240, H640, L4608, P480, R456, REFERENCE, RULES, S896, S1008,
-    S1120, S1248, S1360, S1440, S1616, S1792, S2080, S2304, S2560,
+    B5920, CLOSED_FORM, D6144, D10240, H640, H1152, L4608, P480, R456, REFERENCE, RULES, S896,
+    S960, S1008, S1120, S1248, S1344, S1360, S1440, S1616, S1792, S2080, S2304, S2560,
 };
 use splitsum::integrate::{Integrand, ScaleBias};
 use splitsum::units::{SMALLEST_ALPHA, SMALLEST_COSINE};
@@ -80,11 +80,11 @@ fn shares(of: Integrand, rule: &Rule, places: &[(f64, f64)]) -> Vec<f64> {
     let (values, truth) = (at(rule), at(&rule.yardstick()));
     let errors = rule.errors(of);
     let pairs = places.iter().zip(values.iter().zip(truth.iter()));
-    pairs.map(|(&(_, alpha), (value, truth))| share(&errors, alpha, value, truth)).collect()
+    pairs.map(|(&point, (value, truth))| share(&errors, point, value, truth)).collect()
 }
 
-fn share(errors: &Errors, alpha: f64, value: &[f64], truth: &[f64]) -> f64 {
-    let bounds = errors.at(alpha, value);
+fn share(errors: &Errors, point: (f64, f64), value: &[f64], truth: &[f64]) -> f64 {
+    let bounds = errors.at(point, value);
     let share = |((value, truth), bound): ((&f64, &f64), f64)| {
         let error = (value - truth).abs();
         if error.is_finite() {
@@ -189,13 +189,14 @@ fn rules_serve_for_the_lobes_that_are_named_and_for_no_other() {
     assert_eq!((served(&L4608), served(&S2304), served(&CLOSED_FORM)), (5, 4, 0));
     // GGX's two pairs of terms, Beckmann's three and Walter's two, Blinn-Phong's two, and Charlie's
     // two.
-    let interpolants = [S1440, S1120, S2080, S2560, S1792, S1616].map(|rule| served(&rule));
-    assert_eq!(interpolants, [2, 2, 5, 2, 1, 1]);
+    let interpolants =
+        [S1344, S1440, S960, S1120, S2080, S2560, S1792, S1616].map(|rule| served(&rule));
+    assert_eq!(interpolants, [2, 2, 2, 2, 5, 2, 1, 1]);
     // The implicit term of each, which Walter's rational function has no part in.
     assert_eq!([S896, S1008, S1248, S1360].map(|rule| served(&rule)), [1, 1, 1, 1]);
-    assert_eq!((served(&P480), served(&R456), served(&B5920)), (9, 2, 1));
+    assert_eq!((served(&P480), served(&R456), served(&B5920), served(&H1152)), (9, 2, 1, 1));
     for rule in RULES.iter().filter(|rule| {
-        !["closed-form", "l", "s", "p", "r4", "r9", "r2", "r6", "b"]
+        !["closed-form", "l", "s", "p", "r4", "r9", "r1", "r6", "b", "h11"]
             .iter()
             .any(|kind| rule.name.starts_with(kind))
     }) {
@@ -215,7 +216,7 @@ fn rules_serve_for_the_lobes_that_are_named_and_for_no_other() {
 fn charlie_has_its_own_bounds() {
     let lobe = |masking| Microfacet { ndf: Ndf::Charlie, masking };
     let value = ScaleBias { a: 0.5, b: 0.1 };
-    let at = |rule: Rule, masking, alpha| errors_at(&rule, lobe(masking), alpha, value).a;
+    let at = |rule: Rule, masking, alpha| errors_at(&rule, lobe(masking), (0.0, alpha), value).a;
     // As sharp as any lobe's from roughness 1e-5 up, the coarser rules from 0.07 up.
     assert_eq!(
         [1.0, 1e-10, 0.9e-10].map(|alpha| at(REFERENCE, Masking::Neubelt, alpha)),

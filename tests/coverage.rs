@@ -12,14 +12,14 @@ use splitsum::integrate::ScaleBias;
 use splitsum::integrate::rule::{CHARLIE_UNKNOWN, Rule};
 use splitsum::integrate::rules::REFERENCE;
 use splitsum::integrate::rules::{
-    B2544, B5920, D10240, L4608, P480, P1024, R456, R976, R2552, R6080, S896, S1008, S1120, S1248,
-    S1360, S1440, S1616, S1792, S2080, S2304, S2560,
+    B2544, B5920, D10240, H1152, L2048, L4608, P480, P1024, R456, R976, R1776, R6080, S896, S960,
+    S1008, S1120, S1248, S1344, S1360, S1440, S1616, S1792, S2080, S2304, S2560,
 };
 
 /// The rules that decide how values round.
-const STAGES: [Rule; 21] = [
-    S1440, S2304, S2080, S2560, S1792, S1616, S896, S1120, S1008, S1248, S1360, L4608, P480, P1024,
-    R456, R976, R2552, R6080, B2544, B5920, D10240,
+const STAGES: [Rule; 25] = [
+    S960, S1344, S1440, S2304, S2080, S2560, S1792, S1616, S896, S1120, S1008, S1248, S1360, L2048,
+    L4608, P480, P1024, R456, R976, R1776, R6080, B2544, B5920, D10240, H1152,
 ];
 
 /// Points in all: 100,000, or what SPLITSUM_COVERAGE says (.ci/run: a million).
@@ -75,9 +75,9 @@ fn violations(
     scale: f64,
 ) -> usize {
     let values = cpu::bake_points(lobe, points, rule).scale_bias();
-    let beyond = |((&(_, alpha), truth), value): ((&(f64, f64), &ScaleBias), &ScaleBias)| {
+    let beyond = |((&point, truth), value): ((&(f64, f64), &ScaleBias), &ScaleBias)| {
         let (errors, reference) =
-            (errors_at(rule, lobe, alpha, *value), errors_at(&REFERENCE, lobe, alpha, *truth));
+            (errors_at(rule, lobe, point, *value), errors_at(&REFERENCE, lobe, point, *truth));
         // Written so that NaN is a violation.
         let within =
             |x: f64, y: f64, error: f64, reference: f64| (x - y).abs() <= scale * error + reference;

@@ -56,7 +56,8 @@ fn a_stage_decides_nothing_nearer_than_its_error_and_twice_the_next_ones() {
     let some = Grid::of(vec![0.6], vec![0.25]);
     let rules = rules(&task(&lut, &some, Precision::F16));
     let value = Integrator(rules[0]).integrate(BECKMANN, 0.6, 0.25);
-    let [own, last] = [0, rules.len() - 2].map(|i| errors_at(&rules[i], BECKMANN, 0.25, value).a);
+    let [own, last] =
+        [0, rules.len() - 2].map(|i| errors_at(&rules[i], BECKMANN, (0.0, 0.25), value).a);
     // The last rule before the reference is not the first, and its margin is seen.
     assert!(rules.len() == 3 && last > 0.0);
     for (distance, decided) in [(own + last, 0), (own + 3.0 * last, 1)] {
@@ -178,11 +179,11 @@ fn charlies_bias_is_no_better_known_than_its_scale_where_its_ring_is_at_the_hori
     let value = ScaleBias { a: 0.5, b: 1e-6 };
     let limits = [(REFERENCE, CHARLIE_UNKNOWN), (Rule::named("h6144").unwrap(), CHARLIE_LIMIT)];
     for (rule, limit) in limits {
-        let below = errors_at(&rule, charlie, 0.99 * limit, value);
+        let below = errors_at(&rule, charlie, (0.0, 0.99 * limit), value);
         assert_eq!(below.b, below.a, "{}", rule.name);
         assert_eq!(below.a, rule.bound(charlie));
     }
-    let above = errors_at(&REFERENCE, charlie, CHARLIE_UNKNOWN, value);
+    let above = errors_at(&REFERENCE, charlie, (0.0, CHARLIE_UNKNOWN), value);
     assert!(above.b < 1e-16 && above.a < 1e-12);
 }
 

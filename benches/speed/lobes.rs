@@ -16,8 +16,11 @@ use splitsum::units::F0;
 /// Texels along either edge of the tables.
 const SIZES: [usize; 2] = [128, 512];
 
-/// Turns of a table and its samples.
+/// Turns of two works that take turns.
 const TURNS: usize = 3;
+
+/// Turns of works of a few milliseconds, whose times differ more.
+const MORE_TURNS: usize = 9;
 
 /// A table in halves.
 pub fn request(lut: Lut, size: usize) -> Request {
@@ -30,20 +33,22 @@ pub fn dfg(lobe: Microfacet) -> Lut {
 }
 
 /// The median times of two works that take turns, the first turn is not counted.
-fn in_turns(mut ours: impl FnMut(), mut theirs: impl FnMut()) -> [f64; 2] {
+fn in_turns(turns: usize, mut ours: impl FnMut(), mut theirs: impl FnMut()) -> [f64; 2] {
     let turn = |_| [timed(&mut ours).1, timed(&mut theirs).1];
-    let turns: Vec<[f64; 2]> = (0..=TURNS).map(turn).skip(1).collect();
+    let turns: Vec<[f64; 2]> = (0..=turns).map(turn).skip(1).collect();
     [0, 1].map(|which| median(turns.iter().map(|turn| turn[which]).collect()))
 }
 
 /// Prints both tables.
 pub fn lobes() {
     let seconds = |lobe: Microfacet, size: usize| {
+        let turns = if size == SIZES[0] { MORE_TURNS } else { TURNS };
         let grid: Grid = request(dfg(lobe), size).grid().clone();
         let run = |setting: Setting, arithmetic| {
             setting.run(lobe, &grid, arithmetic, 1).unwrap();
         };
         in_turns(
+            turns,
             || run(Setting::Certified(Precision::F16), Arithmetic::F64),
             || run(BASELINE, Arithmetic::F32),
         )
@@ -77,7 +82,7 @@ fn energy() {
             let bake = |request: &Request| {
                 splitsum::bake(request, &backend).unwrap();
             };
-            let [ours, plain] = in_turns(|| bake(&table), || bake(&plain));
+            let [ours, plain] = in_turns(MORE_TURNS, || bake(&table), || bake(&plain));
             println!("| {}, {channels} | {:.1} | {:.2} |", lobe.ndf, 1e3 * ours, ours / plain);
         }
     }
@@ -106,6 +111,7 @@ pub fn on_devices() {
             // A rule that no device can do with the lobe.
             let Ok(baked) = splitsum::bake(&table, &backend) else { continue };
             let [ours, theirs] = in_turns(
+                TURNS,
                 || drop(splitsum::bake(&table, &backend).unwrap()),
                 || drop(splitsum::bake(&table, &cpu).unwrap()),
             );

@@ -50,7 +50,7 @@ impl Integration<'_> {
     /// Integrals at an α with the bounds of their errors, `besides` included: of albedos above 1
     /// relative.
     pub fn within_bound(&self, alpha: f64, integrals: &[f64], besides: f64) -> Vec<Ball> {
-        let errors = self.baker.rule.errors(self.integrand).at(alpha, integrals);
+        let errors = self.baker.rule.errors(self.integrand).at((0.0, alpha), integrals);
         let more = (self.arithmetic() + besides) * scale(integrals);
         integrals
             .iter()
@@ -81,7 +81,7 @@ impl Integration<'_> {
             let values = Baker::new(integrand, &rule).averages(&grid.alphas);
             for ((row, values), &alpha) in averages.iter_mut().zip(values.iter()).zip(&grid.alphas)
             {
-                let errors = errors.at(alpha, values);
+                let errors = errors.of_averages(alpha, values);
                 let ball =
                     |(&value, error): (&f64, f64)| Ball { value, error: error + AVERAGE_ERROR };
                 row.extend(values.iter().zip(errors).map(ball));
@@ -95,7 +95,7 @@ impl Integration<'_> {
         let bound = grid
             .alphas
             .iter()
-            .map(|&alpha| self.baker.rule.bound_at(self.integrand, alpha))
+            .map(|&alpha| self.baker.rule.bound_at(self.integrand, grid.least_mu(), alpha))
             .fold(0.0, f64::max);
         let bound = bound + self.arithmetic();
         let Integration { integrand, baker, gpu, checked, .. } = self;

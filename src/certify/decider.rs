@@ -39,6 +39,8 @@ pub(super) struct Decider<'a> {
     pub averages: &'a Averages,
     /// The bounds of the stage's errors.
     pub errors: Errors,
+    /// The least n·v that the errors are of.
+    pub least_mu: f64,
     /// [`BOTH_SIDES`] times the errors of the [`finest`] of these are added.
     pub margins: &'a [Rule],
     /// Whether mirrors are computed in f64, and err by no more than its arithmetic.
@@ -63,16 +65,17 @@ struct Row<'a> {
     averages: &'a [Ball],
 }
 
-/// The bounds at an α of the finest of these rules, if it is finer than the row's `own`.
+/// The bounds of the finest of these rules at an α, if it is finer than the stage's `own`.
 pub(super) fn finest(
     margins: &[Rule],
     integrand: Integrand,
-    own: &RowErrors,
+    own: &Errors,
     alpha: f64,
-) -> Option<RowErrors> {
-    let rows = margins.iter().map(|margin| margin.errors(integrand).row(alpha));
-    let finest = rows.min_by(|a, b| a.largest().total_cmp(&b.largest()));
-    finest.filter(|row| row.largest() < own.largest())
+) -> Option<Errors> {
+    let largest = |errors: &Errors| errors.row(0.0, alpha).largest();
+    let of_margins = margins.iter().map(|margin| margin.errors(integrand));
+    let finest = of_margins.min_by(|a, b| largest(a).total_cmp(&largest(b)));
+    finest.filter(|finest| largest(finest) < largest(own))
 }
 
 impl Decider<'_> {
@@ -86,8 +89,9 @@ impl Decider<'_> {
             Integrand::Glass(interface) => Some(Known::Points(interface, alpha)),
             Integrand::Specular(..) | Integrand::Diffuse(_) => None,
         };
-        let errors = self.errors.row(alpha);
-        let margin = finest(self.margins, integrand, &errors, alpha);
+        let errors = self.errors.row(self.least_mu, alpha);
+        let margin = finest(self.margins, integrand, &self.errors, alpha);
+        let margin = margin.map(|margin| margin.row(self.least_mu, alpha));
         Row { known, errors, margin, averages: self.averages.row(row) }
     }
 

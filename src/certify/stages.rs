@@ -20,6 +20,9 @@ pub const LARGEST_F32: usize = 4096;
 /// The same of glass, whose reference takes some ten times as long.
 pub const LARGEST_F32_OF_GLASS: usize = 512;
 
+/// How many times as fine a stage has to be.
+const OF_USE: f64 = 2.0;
+
 /// An α of smooth rows, where Charlie's rules are as sharp as on others, and one of rough rows.
 const SOME_ALPHAS: [f64; 2] = [0.1, 1.0];
 
@@ -27,6 +30,8 @@ const SOME_ALPHAS: [f64; 2] = [0.1, 1.0];
 #[derive(Clone, Debug)]
 pub struct Stages {
     integrand: Integrand,
+    /// Of the table.
+    least_mu: f64,
     pub(super) bakers: Vec<Baker>,
     /// Whether values are rounded correctly: of f32 only few values, and those in closed form.
     pub(super) rounds_correctly: bool,
@@ -35,13 +40,13 @@ pub struct Stages {
 /// The rules of the CPU's stages, each finer than those before on some rows.
 pub fn rules(task: &Task) -> Vec<Rule> {
     let integrand = task.lut.integrand();
-    let texels = task.points();
+    let (texels, least_mu) = (task.points(), task.grid.least_mu());
     let first = match task.precision {
-        precision if precision.is_rounded_once() => Rule::for_rounding(integrand, texels),
+        precision if precision.is_rounded_once() => Rule::for_rounding(integrand, least_mu, texels),
         _ => Rule::for_cpu(integrand, task.tolerance, texels),
     };
     // On smooth rows and on rough ones: Blinn-Phong's own rules have no bound on the latter.
-    let errors = |rule: &Rule| SOME_ALPHAS.map(|alpha| rule.bound_at(integrand, alpha));
+    let errors = |rule: &Rule| SOME_ALPHAS.map(|alpha| rule.bound_at(integrand, least_mu, alpha));
     let mut rules: Vec<Rule> = first.into_iter().collect();
     for rule in FINER.into_iter().filter(|rule| rule.applies_to(integrand)) {
         let is_finer = |i: usize| rules.iter().all(|other| errors(&rule)[i] < errors(other)[i]);
@@ -69,6 +74,7 @@ impl Stages {
         };
         Stages {
             integrand,
+            least_mu: task.grid.least_mu(),
             bakers: rules.par_iter().map(|rule| Baker::new(integrand, rule)).collect(),
             rounds_correctly: task.precision.is_rounded_once()
                 || task.precision == Precision::F32 && few,
@@ -93,15 +99,16 @@ impl Stages {
         self.bound_at(stage, alpha).is_finite()
     }
 
-    /// Whether the stage is finer at an α than all before it; the last one takes whatever is left.
+    /// Whether the stage is twice as fine at an α as all before it, so that it leaves a
+    /// fraction of what is asked; the last one takes whatever is left.
     pub(super) fn is_of_use(&self, stage: usize, alpha: f64) -> bool {
         let bound = self.bound_at(stage, alpha);
-        let is_finer = (0..stage).all(|before| bound < self.bound_at(before, alpha));
+        let is_finer = (0..stage).all(|before| OF_USE * bound < self.bound_at(before, alpha));
         stage + 1 == self.bakers.len() || bound.is_finite() && is_finer
     }
 
     fn bound_at(&self, stage: usize, alpha: f64) -> f64 {
-        self.bakers[stage].rule.bound_at(self.integrand, alpha)
+        self.bakers[stage].rule.bound_at(self.integrand, self.least_mu, alpha)
     }
 
     /// Whether the stage interpolates: cheap enough to check a device at every texel.
@@ -125,7 +132,7 @@ pub(super) fn summary(
 ) -> Stage {
     let decades = [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
     let of_row = |&alpha: &f64| {
-        let row = errors.row(alpha);
+        let row = errors.row(grid.least_mu(), alpha);
         let by_decade = decades.map(|b| row.of(&[0.0, b])[1]);
         StageError { largest: row.of(&[1.0])[0], by_decade }
     };

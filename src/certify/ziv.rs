@@ -23,8 +23,9 @@ use crate::numeric::ball::Ball;
 use rayon::prelude::*;
 
 /// Texels that pass through the second stage though the first has decided them, so that one checks
-/// the other: as many as cost it a few milliseconds.
-const AUDITED: usize = 64;
+/// the other: one in so many of a table, and at most so many, which cost a few milliseconds.
+const AUDITED_OF: usize = 512;
+const MOST_AUDITED: usize = 64;
 
 /// A table that a device has computed.
 #[derive(Clone, Copy, Debug)]
@@ -125,6 +126,7 @@ impl Run<'_> {
             task: self.task,
             averages: &averages,
             errors: rule.device_errors(integrand),
+            least_mu: self.task.grid.least_mu(),
             margins: &margins,
             exact_mirrors: false,
             rounds_correctly: self.stages.rounds_correctly,
@@ -147,6 +149,7 @@ impl Run<'_> {
             task: self.task,
             averages: &averages,
             errors: baker.rule.errors(integrand),
+            least_mu: self.task.grid.least_mu(),
             margins: &margins,
             exact_mirrors: true,
             rounds_correctly: self.stages.rounds_correctly,
@@ -200,7 +203,7 @@ impl Run<'_> {
             asked.extend(sample(self.task.grid).filter(|&texel| is_first(0, texel)));
         }
         if let Some((_, seen)) = self.seen.first() {
-            let few = AUDITED.min(seen.len());
+            let few = seen.len().div_ceil(AUDITED_OF).min(MOST_AUDITED);
             let audited = (0..few).map(|i| seen.texel(scatter(i) % seen.len()));
             asked.extend(audited.filter(|&texel| is_first(1, texel)));
         }
@@ -251,14 +254,14 @@ impl Run<'_> {
         let compare = |place: usize| {
             let (texel, integrals) = (seen.texel(place), seen.integrals.at(place));
             let (mu, alpha) = self.task.grid.point(texel);
-            let our_errors = ours.at(alpha, integrals);
+            let our_errors = ours.at((mu, alpha), integrals);
             let failed = |who: &str, apart: String, cure: &str| {
                 Error::CheckFailed(format!("at n.v = {mu}, alpha = {alpha} {who} {apart}; {cure}"))
             };
             if let Some((device, errors)) = &device {
                 let cure = "the table is thrown away; use another device, or --backend cpu";
                 let theirs = device.integrals.at(texel);
-                check_apart(theirs, integrals, &errors.at(alpha, integrals), &our_errors)
+                check_apart(theirs, integrals, &errors.at((mu, alpha), integrals), &our_errors)
                     .map_err(|apart| failed(device.name, apart, cure))?;
             }
             // The last stage that has seen it.
@@ -267,7 +270,7 @@ impl Run<'_> {
                 .find_map(|(rule, seen, errors)| Some((rule, seen.of(texel)?, errors)));
             if let Some((last, theirs, errors)) = last {
                 let rules = format!("rule {} beside {}", last.name, rule.name);
-                check_apart(theirs, integrals, &errors.at(alpha, theirs), &our_errors)
+                check_apart(theirs, integrals, &errors.at((mu, alpha), theirs), &our_errors)
                     .map_err(|apart| failed(&rules, apart, "please report this"))?;
             }
             Ok(())
@@ -294,9 +297,9 @@ impl Run<'_> {
             let baker = if own { baker } else { &Baker::new(integrand, &baker.rule) };
             let errors = baker.rule.errors(integrand);
             for ((values, &row), &alpha) in baker.averages(&alphas).iter().zip(rows).zip(&alphas) {
-                let of_rule = errors.at(alpha, values);
-                let of_margin = finest(margins, integrand, &errors.row(alpha), alpha)
-                    .map_or(Default::default(), |margin| margin.of(values));
+                let of_rule = errors.of_averages(alpha, values);
+                let of_margin = finest(margins, integrand, &errors, alpha)
+                    .map_or(Default::default(), |margin| margin.of_averages(alpha, values));
                 let ball = |(k, &value): (usize, &f64)| {
                     let error = of_rule[k] + AVERAGE_ERROR + BOTH_SIDES * of_margin[k];
                     Ball { value, error }

@@ -184,7 +184,7 @@ impl Setting {
             Setting::AnalyticFit(_) => 1.0,
             Setting::Rule(rule) => of(*rule),
             Setting::Certified(Precision::F32) => Rule::for_cpu(lobe, 1e-6, texels).map_or(0.0, of),
-            Setting::Certified(_) => Rule::for_rounding(lobe, texels).map_or(0.0, of),
+            Setting::Certified(_) => Rule::for_rounding(lobe, 1.0, texels).map_or(0.0, of),
         }
     }
 

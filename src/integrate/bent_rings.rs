@@ -14,12 +14,14 @@
 //! of 1 - n·l where l is upright, at which nodes crowd.
 
 use super::half_vectors::{Ring, View, cut_circle, full_circle, integrand, midpoints};
-use super::rings::{Lobe, mirrored, tail_end};
+use super::rings::{Lobe, tail_end};
 use super::{Integrals, Kernel};
 use crate::brdf::fresnel::Basis;
 use crate::brdf::{Microfacet, Ndf};
 use crate::numeric::lanes::Real;
-use crate::numeric::quadrature::gauss_legendre::{Node, crowded, gauss_legendre, half_gauss};
+use crate::numeric::quadrature::gauss_legendre::{
+    Node, crowded, crowded_at_end, gauss_legendre, half_gauss,
+};
 
 /// Numbers of nodes, radial before azimuth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,15 +59,18 @@ impl BentRingRule {
 
     /// The rule's nodes.
     pub fn nodes(&self) -> BentRingNodes {
-        let crowded_at_1 = |count: usize| mirrored(crowded(gauss_legendre(count)));
         let [elevations, above, below] = self.middle;
         BentRingNodes {
             first: Circles {
                 // u² twice, as in the rules without a bend.
                 radial: crowded(crowded(gauss_legendre(self.first[0]))),
-                azimuth: crowded_at_1(self.first[1]),
+                azimuth: crowded_at_end(gauss_legendre(self.first[1])),
             },
-            middle: [gauss_legendre(elevations), half_gauss(above), crowded_at_1(below)],
+            middle: [
+                gauss_legendre(elevations),
+                half_gauss(above),
+                crowded_at_end(gauss_legendre(below)),
+            ],
             last: Circles {
                 radial: crowded(gauss_legendre(self.last[0])),
                 azimuth: midpoints(self.last[1]),

@@ -5,8 +5,10 @@
 //! A new distribution needs an arm of [`columns`] and the constants that it names: [`NONE`] for
 //! rules that it is not to use.
 
+mod charlie;
 mod glass;
 
+use self::charlie::charlie_columns;
 pub use self::glass::{glass_columns, glass_layer};
 use crate::brdf::{Masking, Microfacet, Ndf};
 
@@ -21,6 +23,11 @@ pub const BLINN_PHONG_LIMIT: f64 = 0.49;
 /// From this α (roughness 0.1) on, where the layer at grazing is wide, rules for GGX and Charlie
 /// are several times as sharp as below.
 pub const WIDE_LAYER: f64 = 0.01;
+
+/// From this n·v on, the centre of the first texel of 2,048, terms of GGX and of Charlie that have
+/// a layer at the horizon are followed better than below, where that layer is thinner than any
+/// rule's nodes lie apart.
+pub const GRAZING: f64 = 1.0 / 4096.0;
 
 /// Below this α (roughness 1e-5) the reference keeps 2e-6 of Charlie only, and nothing is known
 /// better.
@@ -87,6 +94,8 @@ pub struct Columns {
     pub h1536: Bound,
     /// Over half vectors.
     pub h6144: Bound,
+    /// Over half vectors that crowd.
+    pub h1152: Bound,
     /// Double exponential.
     pub d6144: Bound,
     /// Double exponential.
@@ -98,6 +107,8 @@ pub struct Columns {
     /// Over directions of light.
     pub l512: Bound,
     /// Over directions of light.
+    pub l2048: Bound,
+    /// Over directions of light.
     pub l4608: Bound,
     /// Over planes of light directions.
     pub p480: Bound,
@@ -108,7 +119,7 @@ pub struct Columns {
     /// About a ring.
     pub r976: Bound,
     /// About a ring.
-    pub r2552: Bound,
+    pub r1776: Bound,
     /// About a ring.
     pub r6080: Bound,
     /// About a ring with a bend.
@@ -118,7 +129,11 @@ pub struct Columns {
     /// Interpolated.
     pub s640: Bound,
     /// Interpolated.
+    pub s960: Bound,
+    /// Interpolated.
     pub s1120: Bound,
+    /// Interpolated.
+    pub s1344: Bound,
     /// Interpolated.
     pub s1440: Bound,
     /// Interpolated.
@@ -151,31 +166,32 @@ pub struct Columns {
     pub g4536: Bound,
 }
 
-/// The bounds for a lobe at an α: for GGX and Charlie wider below [`WIDE_LAYER`], and for Charlie
-/// wider still below [`CHARLIE_LIMIT`] and [`CHARLIE_UNKNOWN`]; for Blinn-Phong wider above
-/// [`BLINN_PHONG_LIMIT`].
-pub const fn columns(lobe: Microfacet, alpha: f64) -> &'static Columns {
+/// The bounds for a lobe at an α where n·v is at least `mu`: for GGX and Charlie wider below
+/// [`WIDE_LAYER`] and [`GRAZING`], and for Charlie wider still below [`CHARLIE_LIMIT`] and
+/// [`CHARLIE_UNKNOWN`]; for Blinn-Phong wider above [`BLINN_PHONG_LIMIT`].
+pub const fn columns(lobe: Microfacet, mu: f64, alpha: f64) -> &'static Columns {
+    let grazing = mu < GRAZING;
     match lobe.ndf {
-        Ndf::Ggx if alpha < WIDE_LAYER => &GGX_BELOW_WIDE_LAYER,
-        Ndf::Ggx => match lobe.masking {
-            Masking::Separable | Masking::SchlickSmith | Masking::Implicit => &GGX_SEPARABLE,
-            _ => &GGX,
-        },
+        Ndf::Ggx => {
+            let coupled =
+                matches!(lobe.masking, Masking::HeightCorrelated | Masking::HeightCorrelatedApprox);
+            match alpha < WIDE_LAYER {
+                true if grazing => &GGX_GRAZING_BELOW_WIDE_LAYER,
+                true => &GGX_BELOW_WIDE_LAYER,
+                false if grazing && coupled => &GGX_GRAZING,
+                false if coupled => &GGX,
+                false => &GGX_SEPARABLE,
+            }
+        }
         Ndf::Beckmann => &BECKMANN,
         Ndf::BeckmannWalter => &BECKMANN_WALTER,
         Ndf::BlinnPhong if alpha > BLINN_PHONG_LIMIT => &BLINN_PHONG_BEYOND_LIMIT,
         Ndf::BlinnPhong => &BLINN_PHONG,
-        Ndf::Charlie => match lobe.masking {
-            _ if alpha >= WIDE_LAYER => &CHARLIE,
-            _ if alpha >= CHARLIE_LIMIT => &CHARLIE_BELOW_WIDE_LAYER,
-            _ if alpha >= CHARLIE_UNKNOWN => &CHARLIE_BELOW_LIMIT,
-            Masking::HeightCorrelated => &CHARLIE_FITTED_UNKNOWN_BELOW,
-            _ => &CHARLIE_UNKNOWN_BELOW,
-        },
+        Ndf::Charlie => charlie_columns(lobe.masking, grazing, alpha),
     }
 }
 
-const GGX_BELOW_WIDE_LAYER: Columns = Columns {
+const GGX_GRAZING_BELOW_WIDE_LAYER: Columns = Columns {
     h56: all(1e-3),
     h130: all(1e-4),
     h288: all(1e-5),
@@ -184,26 +200,49 @@ const GGX_BELOW_WIDE_LAYER: Columns = Columns {
     h6144: all(3e-9),
     l288: all(3e-5),
     l512: all(1e-5),
+    l2048: sharp(2.7e-7, 5e-7, 2.5e-12),
     l4608: sharp(5e-9, 8e-8, 1e-12),
     s640: all(1e-5),
+    s960: sharp(2e-6, 2e-6, 6e-8),
     s1120: sharp(1.2e-7, 5e-7, 1e-9),
+    s1344: sharp(2e-6, 2e-6, 1.6e-6),
     s1440: sharp(1.2e-7, 2e-6, 4e-9),
     s2304: sharp(3e-8, 8e-8, 3e-11),
     s896: sharp(1.2e-7, 5e-7, 1e-9),
     ..SMOOTH
 };
 
+const GGX_BELOW_WIDE_LAYER: Columns = Columns {
+    l4608: sharp(8e-11, 1e-8, 1e-13),
+    s960: sharp(2e-7, 6e-7, 4e-9),
+    s1344: sharp(2.5e-7, 1e-6, 5e-9),
+    s1440: sharp(1.2e-7, 5e-7, 1e-9),
+    ..GGX_GRAZING_BELOW_WIDE_LAYER
+};
+
 /// With the height-correlated term and its approximation, which couple both directions.
-const GGX: Columns = Columns {
+const GGX_GRAZING: Columns = Columns {
+    l2048: sharp(4e-8, 1e-6, 1e-10),
     l4608: sharp(3.5e-9, 8e-8, 1e-12),
     s1440: sharp(4.5e-8, 7.5e-7, 2e-10),
     s2304: sharp(4e-9, 2e-7, 1.5e-11),
-    ..GGX_BELOW_WIDE_LAYER
+    ..GGX_GRAZING_BELOW_WIDE_LAYER
+};
+
+const GGX: Columns = Columns {
+    l2048: sharp(6e-10, 1.2e-8, 2e-12),
+    l4608: sharp(2.5e-11, 1e-9, 1e-14),
+    s1344: sharp(7e-8, 1e-6, 1.6e-9),
+    s1440: sharp(1.2e-8, 2e-7, 3e-10),
+    s2304: sharp(1.5e-9, 3e-8, 1.5e-11),
+    ..GGX_GRAZING
 };
 
 /// With a term of each direction for itself.
 const GGX_SEPARABLE: Columns = Columns {
-    l4608: sharp(1.5e-12, 1e-11, 2e-14),
+    l2048: sharp(3e-10, 1e-8, 1e-12),
+    l4608: sharp(1.8e-12, 1.5e-11, 3e-14),
+    s960: sharp(8e-8, 1e-6, 2e-10),
     s1120: sharp(3e-9, 1e-7, 3e-10),
     s2304: sharp(1.6e-9, 3e-8, 1.5e-11),
     s896: sharp(1e-9, 1e-7, 3e-10),
@@ -253,56 +292,13 @@ const BLINN_PHONG: Columns = Columns {
 };
 
 /// Where the lobe is so wide that it does not end.
-const BLINN_PHONG_BEYOND_LIMIT: Columns =
-    Columns { p480: NONE, p1024: NONE, s1248: sharp(6e-10, 1e-8, 5e-11), ..BLINN_PHONG };
-
-const CHARLIE: Columns = Columns { s1616: sharp(6e-8, 5e-7, 1.5e-9), ..CHARLIE_BELOW_WIDE_LAYER };
-
-const CHARLIE_BELOW_WIDE_LAYER: Columns = Columns {
-    d6144: sharp(5e-7, 1.5e-6, 1e-12),
-    d10240: sharp(6e-9, 7e-8, 1e-12),
-    ..CHARLIE_BELOW_LIMIT
+const BLINN_PHONG_BEYOND_LIMIT: Columns = Columns {
+    h1152: sharp(2e-13, 5e-12, 5e-15),
+    p480: NONE,
+    p1024: NONE,
+    s1248: sharp(6e-10, 1e-8, 5e-11),
+    ..BLINN_PHONG
 };
-
-const CHARLIE_BELOW_LIMIT: Columns = Columns {
-    h56: all(6e-2),
-    h130: all(2e-2),
-    h288: all(3e-3),
-    h640: all(5e-5),
-    h1536: all(4e-6),
-    h6144: all(3e-6),
-    d6144: NONE,
-    d10240: NONE,
-    r456: sharp(5e-7, 4e-6, 4e-9),
-    r976: sharp(1.5e-8, 3e-7, 8e-10),
-    r2552: sharp(1e-9, 1.5e-8, 1.2e-10),
-    r6080: sharp(7e-11, 1.5e-8, 4e-12),
-    b2544: sharp(6e-8, 5e-7, 1.2e-9),
-    b5920: sharp(2.5e-8, 2e-7, 2e-10),
-    s1792: sharp(2e-8, 5e-7, 6e-10),
-    s1616: sharp(3e-7, 1.2e-6, 4e-9),
-    s1360: sharp(1.5e-8, 5e-7, 4e-10),
-    ..SMOOTH
-};
-
-const CHARLIE_UNKNOWN_BELOW: Columns = Columns {
-    r456: NONE,
-    r976: NONE,
-    r2552: NONE,
-    r6080: NONE,
-    b2544: NONE,
-    b5920: NONE,
-    s1792: NONE,
-    s1616: NONE,
-    s1360: NONE,
-    reference: all(2e-6),
-    ..CHARLIE_BELOW_LIMIT
-};
-
-/// The fitted Λ is so large at small α that only the far tail of the ring is seen, which falls
-/// faster than the rules over half vectors follow (below roughness 1e-6).
-const CHARLIE_FITTED_UNKNOWN_BELOW: Columns =
-    Columns { h640: all(6e-4), h1536: all(2e-4), h6144: all(3e-5), ..CHARLIE_UNKNOWN_BELOW };
 
 /// What the layer of an index of refraction near 1 adds, where reflectance falls from 1 within
 /// √(n² - 1) of grazing incidence.
@@ -328,22 +324,26 @@ const SMOOTH: Columns = Columns {
     h640: NONE,
     h1536: NONE,
     h6144: NONE,
+    h1152: NONE,
     d6144: sharp(5e-7, 1e-6, 1e-12),
     d10240: sharp(6e-9, 4e-8, 1e-12),
     reference: sharp(1e-13, 3e-12, 3e-24),
     l288: NONE,
     l512: NONE,
+    l2048: NONE,
     l4608: NONE,
     p480: NONE,
     p1024: NONE,
     r456: NONE,
     r976: NONE,
-    r2552: NONE,
+    r1776: NONE,
     r6080: NONE,
     b2544: NONE,
     b5920: NONE,
     s640: NONE,
+    s960: NONE,
     s1120: NONE,
+    s1344: NONE,
     s1440: NONE,
     s2304: NONE,
     s2080: NONE,

@@ -1,7 +1,7 @@
 //! The bounds of a rule's errors at a point: those of [`super::bounds`], and those of f32 on a
 //! device.
 
-use super::bounds::{Bound, LAYER, all, columns, glass_columns, glass_layer};
+use super::bounds::{Bound, GRAZING, LAYER, all, columns, glass_columns, glass_layer};
 use super::rule::{Method, Rule};
 use super::{Integrand, scale};
 use crate::brdf::fresnel::MOST_WEIGHTS;
@@ -19,7 +19,7 @@ pub struct Errors {
     added: [f64; MOST_WEIGHTS],
 }
 
-/// The bounds at one α.
+/// The bounds at one α, from some n·v on.
 #[derive(Clone, Copy, Debug)]
 pub struct RowErrors {
     bound: Bound,
@@ -99,15 +99,16 @@ impl Rule {
     pub fn bound(&self, integrand: impl Into<Integrand>) -> f64 {
         // Bounds are widest at one end or the other.
         let integrand = integrand.into();
-        self.bound_at(integrand, f64::MIN_POSITIVE).max(self.bound_at(integrand, 1.0))
+        self.bound_at(integrand, 0.0, f64::MIN_POSITIVE).max(self.bound_at(integrand, 0.0, 1.0))
     }
 
-    /// The same at one α.
-    pub fn bound_at(&self, integrand: impl Into<Integrand>, alpha: f64) -> f64 {
-        self.bounds_at(integrand.into(), alpha).all
+    /// The same at one α where n·v is at least `mu`.
+    pub fn bound_at(&self, integrand: impl Into<Integrand>, mu: f64, alpha: f64) -> f64 {
+        self.bounds_at(integrand.into(), mu, alpha).all
     }
 
-    pub(super) fn bounds_at(&self, integrand: Integrand, alpha: f64) -> Bound {
+    /// The bounds at one α where n·v is at least `mu`.
+    pub(super) fn bounds_at(&self, integrand: Integrand, mu: f64, alpha: f64) -> Bound {
         match (integrand, self.promised) {
             (_, Some(promised)) => Bound { all: promised, relative: 0.0, absolute: promised },
             (Integrand::Specular(..) | Integrand::Glass(_), _) if alpha == 0.0 => all(MIRROR),
@@ -116,7 +117,7 @@ impl Rule {
                 glass_layer(interface).map_or(bound, |layer| bound.plus((self.column)(layer)))
             }
             (Integrand::Specular(lobe, fresnel), _) => {
-                let bound = (self.column)(columns(lobe, alpha)).times(fresnel.error_factor());
+                let bound = (self.column)(columns(lobe, mu, alpha)).times(fresnel.error_factor());
                 if fresnel.has_layer() { bound.plus((self.column)(&LAYER)) } else { bound }
             }
             (Integrand::Diffuse(_), _) if self.method == Method::ClosedForm => all(CLOSED_FORM),
@@ -136,8 +137,8 @@ impl Errors {
         Errors { rule, integrand, device, factors, added }
     }
 
-    /// The bounds at one α.
-    pub fn row(&self, alpha: f64) -> RowErrors {
+    /// The bounds at one α where n·v is at least `mu`.
+    pub fn row(&self, mu: f64, alpha: f64) -> RowErrors {
         let all_vanish = match self.integrand {
             Integrand::Specular(lobe, _) => lobe.fades() && self.device.is_none(),
             Integrand::Glass(_) => true,
@@ -147,13 +148,25 @@ impl Errors {
         let rounds = self.added.iter().any(|&added| added > 0.0);
         let sharp = || !rounds && !all_vanish && self.rule.bound(self.integrand) <= SHARP_ON_DEVICE;
         let device = self.device.map(|f32| Device { f32, sharp: sharp() });
-        let bound = self.rule.bounds_at(self.integrand, alpha);
+        let bound = self.rule.bounds_at(self.integrand, mu, alpha);
         RowErrors { bound, device, factors: self.factors, added: self.added, all_vanish }
     }
 
-    /// The bounds of the errors of these integrals at one α.
-    pub fn at(&self, alpha: f64, integrals: &[f64]) -> [f64; MOST_WEIGHTS] {
-        self.row(alpha).of(integrals)
+    /// The bounds of the errors of these integrals at (n·v, α).
+    pub fn at(&self, (mu, alpha): (f64, f64), integrals: &[f64]) -> [f64; MOST_WEIGHTS] {
+        self.row(mu, alpha).of(integrals)
+    }
+
+    /// The bounds of the errors of these averages at one α, but for those of the averages'
+    /// quadrature: the integrals' own beyond [`GRAZING`], and below it their share of an average,
+    /// 2 ∫ μ dμ = [`GRAZING`]².
+    pub fn of_averages(&self, alpha: f64, averages: &[f64]) -> [f64; MOST_WEIGHTS] {
+        let mut errors = self.row(GRAZING, alpha).of(averages);
+        let at_grazing = self.row(0.0, alpha).of(averages);
+        for (error, at_grazing) in errors.iter_mut().zip(at_grazing) {
+            *error += GRAZING * GRAZING * at_grazing;
+        }
+        errors
     }
 }
 

@@ -9,13 +9,18 @@
 //! (4 v·h)).
 //!
 //! x > 0 on the full circle up to τ = t1 = μ/(1+sin θ_v), on |φ| < φ_m with cos φ_m = -m/s up to τ
-//! = 1/t1, and nowhere beyond. Each piece is smooth, so a Gauss rule converges on each.
+//! = 1/t1, and nowhere beyond. Each piece is smooth, so a Gauss rule converges on each; but φ_m
+//! changes like a root at both ends of the second, so that errors fall with the fifth power of the
+//! number of its slopes only, unless they crowd there. That pays for many nodes, and for lobes that
+//! do not end before: with few the rest of the lobe needs them more.
 
 use super::{Integrals, Kernel};
 use crate::brdf::Microfacet;
 use crate::brdf::fresnel::Basis;
 use crate::numeric::lanes::Real;
-use crate::numeric::quadrature::gauss_legendre::{Node, gauss_legendre, half_gauss};
+use crate::numeric::quadrature::gauss_legendre::{
+    Node, crowded_at_both_ends, gauss_legendre, half_gauss,
+};
 use crate::numeric::quadrature::slope_map::{Power, slope_at, slope_interval};
 use std::f64::consts::PI;
 
@@ -33,6 +38,9 @@ pub struct HalfVectorRule {
     pub azimuth_horizon: usize,
     /// The slope map.
     pub power: Power,
+    /// Whether the slopes of the cut circle crowd at both ends, where the end of its azimuths
+    /// changes like a root.
+    pub crowded: bool,
 }
 
 /// The nodes of a rule, ready to use on any texel.
@@ -66,10 +74,11 @@ impl HalfVectorRule {
 
     /// The rule's nodes.
     pub fn nodes(&self) -> HalfVectorNodes {
+        let horizon = gauss_legendre(self.radial_horizon);
         HalfVectorNodes {
             radial: gauss_legendre(self.radial),
             azimuth: midpoints(self.azimuth),
-            radial_horizon: gauss_legendre(self.radial_horizon),
+            radial_horizon: if self.crowded { crowded_at_both_ends(horizon) } else { horizon },
             azimuth_horizon: half_gauss(self.azimuth_horizon),
             power: self.power,
         }

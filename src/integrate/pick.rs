@@ -39,8 +39,8 @@ impl Rule {
     }
 
     /// The cheapest rule for the CPU that decides how nearly every value of a table of `texels`
-    /// rounds.
-    pub fn for_rounding(integrand: impl Into<Integrand>, texels: usize) -> Option<Rule> {
+    /// rounds, whose n·v are at least `mu`.
+    pub fn for_rounding(integrand: impl Into<Integrand>, mu: f64, texels: usize) -> Option<Rule> {
         // Halves lie 5e-4 to 1e-3 of their value apart: a relative error of 1e-5 leaves at most one
         // value in 25 undecided. Without a relative bound nearly every small value would be.
         const RELATIVE: f64 = 1e-5;
@@ -52,23 +52,24 @@ impl Rule {
         }
         let serves = |rule: &Rule| {
             // At α = 1, above the limit below which Charlie's bounds are wider.
-            rule.method == Method::ClosedForm || rule.bounds_at(integrand, 1.0).relative < RELATIVE
+            rule.method == Method::ClosedForm
+                || rule.bounds_at(integrand, mu, 1.0).relative < RELATIVE
         };
         let seconds = |rule: &Rule| {
-            rule.seconds(integrand, texels) + rule.seconds_after_rounding(integrand, texels)
+            rule.seconds(integrand, texels) + rule.seconds_after_rounding(integrand, mu, texels)
         };
         Rule::least(integrand, serves, seconds)
     }
 
     /// The approximate time that a finer rule takes for the values that this one leaves undecided.
-    fn seconds_after_rounding(&self, integrand: Integrand, texels: usize) -> f64 {
+    fn seconds_after_rounding(&self, integrand: Integrand, mu: f64, texels: usize) -> f64 {
         // Fitted to what was measured with f16, within a factor of three: of the texels s1440,
-        // which errs by 4.5e-8 and where B is small by 2e-10, leaves 0.6 %, s2304 with 4e-9 and
-        // 2e-11 0.1 %, s1360 with 1.5e-8 and 4e-10 0.9 %.
+        // which errs by 1.2e-8 and where B is small by 3e-10, leaves 0.2 %, s1248 with 1.8e-8 and
+        // 6.5e-10 0.4 %, s1360 with 8e-10 and 2.2e-10 0.5 %.
         const UNDECIDED_BY_ERROR: f64 = 5e4;
         const UNDECIDED_BY_ABSOLUTE: f64 = 1e7;
         // Those of most rows.
-        let bounds = |rule: &Rule| rule.bounds_at(integrand, 1.0);
+        let bounds = |rule: &Rule| rule.bounds_at(integrand, mu, 1.0);
         let Bound { all, absolute, .. } = bounds(self);
         let finer =
             FINER.into_iter().find(|rule| rule.applies_to(integrand) && bounds(rule).all < all);

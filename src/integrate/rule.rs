@@ -17,7 +17,7 @@ use crate::brdf::{Masking, Microfacet, Ndf};
 /// The method of a rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
-    /// Over half vectors: any lobe, CPU and device.
+    /// Over half vectors: any lobe, CPU and device; with crowded slopes Blinn-Phong, CPU.
     HalfVectors(HalfVectorRule),
     /// Over directions of light, the azimuth in closed form: GGX, CPU.
     LightDirections(LightDirectionRule),
@@ -60,7 +60,8 @@ impl Rule {
     /// Whether a device can run it.
     pub fn runs_on_device(&self) -> bool {
         match self.method {
-            Method::HalfVectors(_) => true,
+            // Crowded slopes pay beyond what f32 resolves.
+            Method::HalfVectors(rule) => !rule.crowded,
             Method::Glass(rule) => rule.fits_f32(),
             Method::LightDirections(_)
             | Method::LightPlanes(_)
@@ -97,6 +98,11 @@ impl Rule {
             }
             (Method::Interpolant(rule), Integrand::Specular(lobe, fresnel)) => {
                 interpolant_serves(&rule, lobe) && fresnel.definition().smooth_complement
+            }
+            (Method::HalfVectors(rule), Integrand::Specular(lobe, fresnel)) if rule.crowded => {
+                lobe.ndf == Ndf::BlinnPhong
+                    && lobe.masking == Masking::Implicit
+                    && fresnel.definition().smooth_complement
             }
             (
                 Method::HalfVectors(_) | Method::DoubleExponential(_),

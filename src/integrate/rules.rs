@@ -8,8 +8,8 @@ use super::glass::{Counts, GlassRule};
 use super::half_vectors::HalfVectorRule;
 use super::interpolant::InterpolantRule;
 use super::interpolant::nodes::{
-    S640_NODES, S896_NODES, S1008_NODES, S1120_NODES, S1248_NODES, S1360_NODES, S1440_NODES,
-    S1616_NODES, S1792_NODES, S2080_NODES, S2304_NODES, S2560_NODES,
+    S640_NODES, S896_NODES, S960_NODES, S1008_NODES, S1120_NODES, S1248_NODES, S1344_NODES,
+    S1360_NODES, S1440_NODES, S1616_NODES, S1792_NODES, S2080_NODES, S2304_NODES, S2560_NODES,
 };
 use super::light_directions::LightDirectionRule;
 use super::light_planes::LightPlaneRule;
@@ -36,6 +36,10 @@ pub const H1536: Rule =
 /// The finest over half vectors.
 pub const H6144: Rule =
     rule("h6144", Method::HalfVectors(nodes([96, 32, 96, 32], Power::Four)), |bounds| bounds.h6144);
+
+/// Over half vectors that crowd where the lobe is cut, for Blinn-Phong where it is a low power.
+pub const H1152: Rule =
+    rule("h1152", Method::HalfVectors(crowded_nodes([32, 12, 48, 16])), |bounds| bounds.h1152);
 
 /// Double exponential, the cheapest.
 pub const D6144: Rule = double_exponential("d6144", [64, 48], |bounds| bounds.d6144);
@@ -124,6 +128,8 @@ pub const G4536: Rule = glass_rule(
 pub const L288: Rule = rule("l288", Method::LightDirections(L288_NODES), |bounds| bounds.l288);
 /// Over directions of light; [`S640`] takes its integrals.
 pub const L512: Rule = rule("l512", Method::LightDirections(L512_NODES), |bounds| bounds.l512);
+/// Over directions of light; the interpolants of certification take its integrals.
+pub const L2048: Rule = rule("l2048", Method::LightDirections(L2048_NODES), |bounds| bounds.l2048);
 /// Over directions of light, the finest; [`S2304`] takes its integrals, and [`S1440`] outside of
 /// its domain.
 pub const L4608: Rule = rule("l4608", Method::LightDirections(L4608_NODES), |bounds| bounds.l4608);
@@ -138,7 +144,7 @@ pub const R456: Rule = ring("r456", ring_nodes([24, 16, 12, 6]), |bounds| bounds
 /// About a ring; [`S1792`] takes its integrals.
 pub const R976: Rule = ring("r976", R976_NODES, |bounds| bounds.r976);
 /// About a ring.
-pub const R2552: Rule = ring("r2552", ring_nodes([56, 42, 20, 10]), |bounds| bounds.r2552);
+pub const R1776: Rule = ring("r1776", ring_nodes([48, 32, 20, 12]), |bounds| bounds.r1776);
 /// About a ring, the finest.
 pub const R6080: Rule = ring("r6080", ring_nodes([88, 64, 28, 16]), |bounds| bounds.r6080);
 
@@ -153,10 +159,15 @@ pub const B5920: Rule = bent_ring(
 
 /// Interpolated, the cheapest for GGX.
 pub const S640: Rule = interpolant("s640", S640_NODES, |bounds| bounds.s640);
-/// Interpolated, for GGX with a term of each direction for itself: its first stage of
-/// certification.
+/// Interpolated, for GGX with a term of each direction for itself: its first stage of certification
+/// for few texels.
+pub const S960: Rule = interpolant("s960", S960_NODES, |bounds| bounds.s960);
+/// Interpolated, for GGX with such a term: its first stage of certification for many texels.
 pub const S1120: Rule = interpolant("s1120", S1120_NODES, |bounds| bounds.s1120);
-/// Interpolated, for GGX with a term that couples them: its first stage of certification.
+/// Interpolated, for GGX with a term that couples them: its first stage of certification for few
+/// texels.
+pub const S1344: Rule = interpolant("s1344", S1344_NODES, |bounds| bounds.s1344);
+/// Interpolated, for GGX with such a term: its first stage of certification for many texels.
 pub const S1440: Rule = interpolant("s1440", S1440_NODES, |bounds| bounds.s1440);
 /// Interpolated, the finest for GGX.
 pub const S2304: Rule = interpolant("s2304", S2304_NODES, |bounds| bounds.s2304);
@@ -179,11 +190,11 @@ pub const S1360: Rule = interpolant("s1360", S1360_NODES, |bounds| bounds.s1360)
 
 /// What decides the values that a first rule leaves undecided, in this order: of those that apply,
 /// rules that are finer on some rows than all before.
-pub const FINER: [Rule; 10] =
-    [G904, G4536, L4608, P1024, R2552, R6080, B5920, D10240, REFERENCE, CLOSED_FORM];
+pub const FINER: [Rule; 12] =
+    [G904, G4536, L2048, L4608, P1024, H1152, R1776, R6080, B5920, D10240, REFERENCE, CLOSED_FORM];
 
 /// Every rule.
-pub const RULES: [Rule; 38] = [
+pub const RULES: [Rule; 42] = [
     CLOSED_FORM,
     H56,
     H130,
@@ -191,22 +202,26 @@ pub const RULES: [Rule; 38] = [
     H640,
     H1536,
     H6144,
+    H1152,
     D6144,
     D10240,
     REFERENCE,
     L288,
     L512,
+    L2048,
     L4608,
     P480,
     P1024,
     R456,
     R976,
-    R2552,
+    R1776,
     R6080,
     B2544,
     B5920,
     S640,
+    S960,
     S1120,
+    S1344,
     S1440,
     S2304,
     S2080,
@@ -233,6 +248,9 @@ const L288_NODES: LightDirectionRule =
 /// The nodes of [`L512`].
 pub const L512_NODES: LightDirectionRule =
     LightDirectionRule { slope: 32, azimuth: 16, power: Power::Two };
+/// The nodes of [`L2048`].
+pub const L2048_NODES: LightDirectionRule =
+    LightDirectionRule { slope: 64, azimuth: 32, power: Power::Four };
 /// The nodes of [`L4608`].
 pub const L4608_NODES: LightDirectionRule =
     LightDirectionRule { slope: 96, azimuth: 48, power: Power::Four };
@@ -259,7 +277,12 @@ const fn glass_rule(name: &'static str, nodes: GlassRule, column: Column) -> Rul
 
 const fn nodes(counts: [usize; 4], power: Power) -> HalfVectorRule {
     let [radial, azimuth, radial_horizon, azimuth_horizon] = counts;
-    HalfVectorRule { radial, azimuth, radial_horizon, azimuth_horizon, power }
+    HalfVectorRule { radial, azimuth, radial_horizon, azimuth_horizon, power, crowded: false }
+}
+
+/// The same of slopes that crowd at both ends of the cut circle.
+pub(super) const fn crowded_nodes(counts: [usize; 4]) -> HalfVectorRule {
+    HalfVectorRule { crowded: true, ..nodes(counts, Power::Two) }
 }
 
 const fn ring(name: &'static str, nodes: RingRule, column: Column) -> Rule {

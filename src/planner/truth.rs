@@ -10,7 +10,7 @@ use crate::integrate::ScaleBias;
 use crate::integrate::interpolant::norms::Norms;
 use crate::integrate::interpolant::{Interpolant, InterpolantRule};
 use crate::integrate::rule::{Method, Rule};
-use crate::integrate::rules::{B5920, D10240, L4608, P1024, R2552, REFERENCE, S2304};
+use crate::integrate::rules::{B5920, D10240, L4608, P1024, R1776, REFERENCE, S2304};
 use crate::numeric::lanes::{F64x8, Work, vectorised};
 use crate::units::alpha_of;
 use rayon::prelude::*;
@@ -65,7 +65,7 @@ const AT_A_TIME: usize = 256;
 /// The rule by which a lobe is integrated, one by one.
 fn fine_rule(lobe: Microfacet) -> &'static Rule {
     let as_sharp = |rule: &&Rule| rule.applies_to(lobe) && rule.bound(lobe) <= D10240.bound(lobe);
-    [&L4608, &P1024, &R2552, &B5920].into_iter().find(as_sharp).unwrap_or(&D10240)
+    [&L4608, &P1024, &R1776, &B5920].into_iter().find(as_sharp).unwrap_or(&D10240)
 }
 
 impl Truth {

@@ -60,6 +60,11 @@ impl Grid {
         Grid { mus, ..self.clone() }
     }
 
+    /// The smallest n·v.
+    pub fn least_mu(&self) -> f64 {
+        self.mus.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
     /// (n·v, α) of point `index`.
     pub fn point(&self, index: usize) -> (f64, f64) {
         (self.mus[index % self.mus.len()], self.alphas[index / self.mus.len()])

@@ -151,9 +151,9 @@ pub fn certify_by(
     Ok(Certified { values, certificate, stages: tally.stages })
 }
 
-/// The bounds of a rule's errors in A and B.
-pub fn errors_at(rule: &Rule, lobe: Microfacet, alpha: f64, value: ScaleBias) -> ScaleBias {
-    let errors = rule.errors(lobe).at(alpha, &value.array());
+/// The bounds of a rule's errors in A and B at (n·v, α).
+pub fn errors_at(rule: &Rule, lobe: Microfacet, point: (f64, f64), value: ScaleBias) -> ScaleBias {
+    let errors = rule.errors(lobe).at(point, &value.array());
     ScaleBias { a: errors[0], b: errors[1] }
 }
 

@@ -192,7 +192,7 @@ fn within_its_bounds(gpu: &Gpu) -> Result<(), Failed> {
             assert_eq!((table.len(), table.count()), (grid.len(), fresnel.count()));
             for (i, (values, truth)) in table.iter().zip(truth.iter()).enumerate() {
                 let (mu, alpha) = grid.point(i);
-                let allowed = errors.at(alpha, values);
+                let allowed = errors.at((0.0, alpha), values);
                 let off: Vec<f64> =
                     values.iter().zip(truth).map(|(value, truth)| (value - truth).abs()).collect();
                 // Written so that NaN fails.

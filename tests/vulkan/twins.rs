@@ -104,6 +104,7 @@ const H288: HalfVectorRule = HalfVectorRule {
     radial_horizon: 20,
     azimuth_horizon: 8,
     power: Power::Four,
+    crowded: false,
 };
 
 fn twins<const N: usize, B: Basis<N>>(

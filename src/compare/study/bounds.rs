@@ -289,7 +289,7 @@ impl Hunt<'_> {
             let errors =
                 if gpu.is_some() { rule.device_errors(integrand) } else { rule.errors(integrand) };
             for ((&place, truth), values) in points.iter().zip(truth.iter()).zip(values.iter()) {
-                let bounds = errors.at(place.alpha, values);
+                let bounds = errors.at((place.mu, place.alpha), values);
                 for (k, track) in tracks.iter_mut().enumerate() {
                     track.tell(Worst {
                         place,

@@ -9,7 +9,9 @@ use crate::brdf::Ndf;
 use crate::integrate::half_vectors::HalfVectorRule;
 use crate::integrate::light_directions::LightDirectionRule;
 use crate::integrate::light_planes::LightPlaneRule;
-use crate::integrate::rules::{B2544_NODES, L512_NODES, L4608_NODES, P480_NODES, R976_NODES};
+use crate::integrate::rules::{
+    B2544_NODES, L512_NODES, L2048_NODES, L4608_NODES, P480_NODES, R976_NODES, crowded_nodes,
+};
 use crate::numeric::quadrature::slope_map::Power;
 
 const fn map([compression, power]: [u32; 2], layer: Layer) -> Map {
@@ -52,8 +54,9 @@ const UNCOUPLED: &[Masking] = &[Masking::Separable, Masking::SchlickSmith];
 const IMPLICIT: &[Masking] = &[Masking::Implicit];
 
 const L512: Source = Source::LightDirections(L512_NODES);
-const L2048: Source =
-    Source::LightDirections(LightDirectionRule { slope: 64, azimuth: 32, power: Power::Four });
+const L1152: Source =
+    Source::LightDirections(LightDirectionRule { slope: 48, azimuth: 24, power: Power::Two });
+const L2048: Source = Source::LightDirections(L2048_NODES);
 const L4608: Source = Source::LightDirections(L4608_NODES);
 const P480: Source = Source::LightPlanes(P480_NODES);
 const P768: Source = Source::LightPlanes(LightPlaneRule { slope: 48, azimuth: 16 });
@@ -63,7 +66,9 @@ const H2304: Source = Source::HalfVectors(HalfVectorRule {
     radial_horizon: 64,
     azimuth_horizon: 24,
     power: Power::Four,
+    crowded: false,
 });
+const H800: Source = Source::HalfVectors(crowded_nodes([24, 10, 40, 14]));
 const R976: Source = Source::Rings(R976_NODES);
 const B2544: Source = Source::BentRings(B2544_NODES);
 
@@ -71,6 +76,8 @@ const B2544: Source = Source::BentRings(B2544_NODES);
 const FEW: Map = map([3, 1], Layer::Alpha(1.0));
 /// tanh(asinh(μ/4α)/8)^¼
 const SOME: Map = map([3, 2], Layer::Alpha(4.0));
+/// tanh(asinh(μ/2α)/8)^¼
+const CLOSE: Map = map([3, 2], Layer::Alpha(2.0));
 /// tanh(asinh(μ/2α)/8)^½
 const ALONE: Map = map([3, 1], Layer::Alpha(2.0));
 /// tanh(asinh(μ/α)/16)^¼
@@ -100,6 +107,12 @@ const NARROW: f64 = 0.0625;
 
 /// The nodes of `s640`.
 pub const S640_NODES: InterpolantRule = whole(L512, &[across(piece(1.0, [32, 20], FEW, L512))]);
+/// The nodes of `s960`.
+pub const S960_NODES: InterpolantRule =
+    of(&[Ndf::Ggx], UNCOUPLED, L4608, &[piece(1.0, [40, 24], ALONE, L1152)]);
+/// The nodes of `s1344`.
+pub const S1344_NODES: InterpolantRule =
+    of(&[Ndf::Ggx], COUPLED, L4608, &[piece(1.0, [48, 28], CLOSE, L1152)]);
 /// The nodes of `s1440`.
 pub const S1440_NODES: InterpolantRule =
     of(&[Ndf::Ggx], COUPLED, L4608, &[piece(1.0, [48, 30], SOME, L2048)]);
@@ -187,7 +200,7 @@ pub const S1248_NODES: InterpolantRule = of(
         piece(0.15, [24, 12], SMOOTH_GAUSSIAN, P480),
         piece(0.5, [24, 14], SMOOTH_GAUSSIAN, P480),
         piece(0.7, [24, 12], SMOOTH_GAUSSIAN, P480),
-        piece(1.0, [24, 14], WIDE, H2304),
+        piece(1.0, [24, 14], WIDE, H800),
     ],
 );
 

@@ -1,6 +1,7 @@
 //! Gauss-Legendre quadrature on [0, 1]: n nodes, exact for polynomials of degree 2n-1.
 
 use std::f64::consts::PI;
+use std::sync::OnceLock;
 
 /// One node of a rule on [0, 1] and its weight; the weights of a rule add up to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,12 +12,22 @@ pub struct Node {
     pub weight: f64,
 }
 
+/// Rules with fewer nodes than this are worked out once: averages ask for theirs row by row.
+const KEPT: usize = 257;
+
 /// The rule with `n` nodes, in ascending order.
-///
+pub fn gauss_legendre(n: usize) -> Vec<Node> {
+    static RULES: [OnceLock<Vec<Node>>; KEPT] = [const { OnceLock::new() }; KEPT];
+    match RULES.get(n) {
+        Some(kept) => kept.get_or_init(|| work_out(n)).clone(),
+        None => work_out(n),
+    }
+}
+
 /// Newton's iteration on the Legendre polynomial P_n from Tricomi's estimate of its roots; the
 /// weights are 2 / ((1-x²) P_n'(x)²), halved for the unit interval (Abramowitz and Stegun,
 /// 25.4.29).
-pub fn gauss_legendre(n: usize) -> Vec<Node> {
+fn work_out(n: usize) -> Vec<Node> {
     debug_assert!((1..=1_000_000).contains(&n), "{n}");
     let mut nodes = vec![Node { at: 0.5, weight: 0.0 }; n];
     for i in 0..n.div_ceil(2) {
@@ -55,6 +66,22 @@ pub fn half_gauss(n: usize) -> Vec<Node> {
 /// Nodes for the same integral after u → u²: crowded at 0.
 pub fn crowded(nodes: Vec<Node>) -> Vec<Node> {
     let crowd = |Node { at, weight }| Node { at: at * at, weight: 2.0 * at * weight };
+    nodes.into_iter().map(crowd).collect()
+}
+
+/// The same after u → 1 - (1-u)²: crowded at 1.
+pub fn crowded_at_end(nodes: Vec<Node>) -> Vec<Node> {
+    let crowd =
+        |Node { at, weight }| Node { at: at * (2.0 - at), weight: 2.0 * (1.0 - at) * weight };
+    nodes.into_iter().map(crowd).collect()
+}
+
+/// The same after u → u² (3 - 2u): crowded at both ends.
+pub fn crowded_at_both_ends(nodes: Vec<Node>) -> Vec<Node> {
+    let crowd = |Node { at, weight }| Node {
+        at: at * at * (3.0 - 2.0 * at),
+        weight: 6.0 * at * (1.0 - at) * weight,
+    };
     nodes.into_iter().map(crowd).collect()
 }
 

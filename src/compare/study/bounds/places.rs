@@ -2,7 +2,7 @@
 //! one to the next.
 
 use crate::integrate::Integrand;
-use crate::integrate::bounds::{BLINN_PHONG_LIMIT, CHARLIE_LIMIT, WIDE_LAYER};
+use crate::integrate::bounds::{BLINN_PHONG_LIMIT, CHARLIE_LIMIT, GRAZING, WIDE_LAYER};
 use crate::integrate::rule::Method;
 use crate::integrate::rules::RULES;
 use crate::units::{LARGEST_ALPHA, SMALLEST_ALPHA, SMALLEST_COSINE};
@@ -129,6 +129,8 @@ impl Places {
             }
             0..3 => crowded,
             3 => self.within(u, self.most_alpha * r * r),
+            // From the n·v on where bounds are narrower.
+            4 if u < 0.5 => self.within(GRAZING * few.max(few.recip()), self.most_alpha * r * r),
             4 => self.within(crowded.mu, self.most_alpha * r * r),
             // n·v ~ α, where shadows begin; n·v ~ √α, where Charlie's ring touches the horizon; sin
             // θ_v ~ α, where a lobe stands around the normal.
