@@ -330,7 +330,7 @@ fn check_part(lut: &Lut, grid: &Grid, accuracy: Accuracy, precision: Precision) 
                 "rule",
                 "one that serves for the model at every roughness of the axis",
                 rule.name,
-                "choose reference, a rule whose name begins with h, or closed-form for a diffuse \
+                "choose reference, one of h56 to h6144, or closed-form for a diffuse \
                  lobe",
             ))
         }

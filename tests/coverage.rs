@@ -104,8 +104,9 @@ fn no_bound_is_violated_and_one_too_small_is_noticed() {
         }
     }
     assert!(tested as f64 > 0.95 * points_in_all() as f64, "{tested} points");
-    // The same test with bounds that are planted too small.
-    for rule in STAGES {
+    // The same test with bounds that are planted too small; h1152 errs by less than the reference
+    // may.
+    for rule in STAGES.into_iter().filter(|rule| *rule != H1152) {
         let lobe = Microfacet::all().find(|lobe| rule.applies_to(*lobe)).unwrap();
         let points = points(lobe, 4000);
         let truth = cpu::bake_points(lobe, &points, &REFERENCE).scale_bias();

@@ -13,8 +13,8 @@ use splitsum::certify::stages::{LARGEST_F32, LARGEST_F32_OF_GLASS, Stages, rules
 use splitsum::certify::ziv::DeviceTable;
 use splitsum::error::ExitCode;
 use splitsum::integrate::ScaleBias;
-use splitsum::integrate::rule::{CHARLIE_LIMIT, CHARLIE_UNKNOWN, Rule};
-use splitsum::integrate::rules::{D10240, REFERENCE};
+use splitsum::integrate::rule::{CHARLIE_LIMIT, CHARLIE_UNKNOWN, GRAZING, Rule};
+use splitsum::integrate::rules::{D10240, REFERENCE, RULES};
 use splitsum::lut::{Energy, EnergyChannels, Glass, GlassChannels, Lut, Part};
 use splitsum::table::axis::Axis;
 use splitsum::table::grid::Grid;
@@ -214,4 +214,21 @@ fn a_certificate_counts_the_errors_of_averages_and_of_channels() {
     assert!(worst <= rough.certificate.bound, "{worst:e}, {:e} promised", rough.certificate.bound);
     // The integral's own tolerance would have been too little.
     assert!(worst > 1e-5, "{worst:e}");
+}
+
+#[test]
+fn no_bound_narrows_as_grazing_incidence_comes_nearer() {
+    let alphas = [1e-11, 1e-9, 1e-3, 0.006, 0.1, 0.3, 1.0];
+    for lobe in Microfacet::all() {
+        for rule in RULES.iter().filter(|rule| rule.applies_to(lobe)) {
+            for (alpha, b) in
+                alphas.into_iter().flat_map(|alpha| [1e-9, 1e-4, 0.5].map(|b| (alpha, b)))
+            {
+                let at = |mu| rule.errors(lobe).at((mu, alpha), &[0.5, b]);
+                for (grazing, beyond) in at(0.999 * GRAZING).into_iter().zip(at(GRAZING)) {
+                    assert!(grazing >= beyond, "{} of {lobe:?} at {alpha}, {b}", rule.name);
+                }
+            }
+        }
+    }
 }

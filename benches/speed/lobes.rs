@@ -16,10 +16,10 @@ use splitsum::units::F0;
 /// Texels along either edge of the tables.
 const SIZES: [usize; 2] = [128, 512];
 
-/// Turns of two works that take turns.
+/// How often two works are timed in turns.
 const TURNS: usize = 3;
 
-/// Turns of works of a few milliseconds, whose times differ more.
+/// The same of works of a few milliseconds, whose times differ more.
 const MORE_TURNS: usize = 9;
 
 /// A table in halves.

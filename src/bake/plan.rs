@@ -157,7 +157,7 @@ fn device_rule(request: &Request, part: &Part) -> std::result::Result<Rule, Comp
         }
         Accuracy::Rule(rule) if rule.runs_on_device() => Ok(rule),
         Accuracy::Rule(rule) => {
-            let expected = "one that a device can run: beginning with h, or of glass g560 to g2240";
+            let expected = "one that a device can run: h56 to h6144, or of glass g560 to g2240";
             on_cpu("rule", expected, rule.name)
         }
     }

@@ -65,7 +65,8 @@ struct Row<'a> {
     averages: &'a [Ball],
 }
 
-/// The bounds of the finest of these rules at an α, if it is finer than the stage's `own`.
+/// The bounds of the finest of these rules at an α over all n·v, if it is finer there than the
+/// stage's `own`.
 pub(super) fn finest(
     margins: &[Rule],
     integrand: Integrand,

@@ -6,22 +6,19 @@ use crate::backend::cpu::Baker;
 use crate::integrate::Integrand;
 use crate::integrate::errors::Errors;
 use crate::integrate::rule::{Method, Rule};
-use crate::integrate::rules::FINER;
+use crate::integrate::rules::{FINER, FINER_BY};
 use crate::table::claim::{Stage, StageError};
 use crate::table::grid::Grid;
 use crate::table::precision::Precision;
 use rayon::prelude::*;
 
 /// The most values of a lobe, in all slices, that are rounded correctly to f32, whose steps are as
-/// fine as the fast stages' bounds: each takes the 24,000 evaluations of the reference, all of them
+/// fine as the fast stages' bounds: each takes the 48,000 evaluations of the reference, all of them
 /// 0.2 s for GGX and 2 s for Charlie on one thread.
 pub const LARGEST_F32: usize = 4096;
 
 /// The same of glass, whose reference takes some ten times as long.
 pub const LARGEST_F32_OF_GLASS: usize = 512;
-
-/// How many times as fine a stage has to be.
-const OF_USE: f64 = 2.0;
 
 /// An α of smooth rows, where Charlie's rules are as sharp as on others, and one of rough rows.
 const SOME_ALPHAS: [f64; 2] = [0.1, 1.0];
@@ -49,7 +46,8 @@ pub fn rules(task: &Task) -> Vec<Rule> {
     let errors = |rule: &Rule| SOME_ALPHAS.map(|alpha| rule.bound_at(integrand, least_mu, alpha));
     let mut rules: Vec<Rule> = first.into_iter().collect();
     for rule in FINER.into_iter().filter(|rule| rule.applies_to(integrand)) {
-        let is_finer = |i: usize| rules.iter().all(|other| errors(&rule)[i] < errors(other)[i]);
+        let is_finer =
+            |i: usize| rules.iter().all(|other| FINER_BY * errors(&rule)[i] < errors(other)[i]);
         if (0..SOME_ALPHAS.len()).any(is_finer) {
             rules.push(rule);
         }
@@ -94,17 +92,24 @@ impl Stages {
         self.bakers[first..before_reference].iter().map(|baker| baker.rule).collect()
     }
 
-    /// Whether the stage has a bound at an α.
-    pub(super) fn has_bound(&self, stage: usize, alpha: f64) -> bool {
-        self.bound_at(stage, alpha).is_finite()
-    }
-
-    /// Whether the stage is twice as fine at an α as all before it, so that it leaves a
-    /// fraction of what is asked; the last one takes whatever is left.
+    /// Whether the stage is of use at an α: [`FINER_BY`] times as fine as those of use before it,
+    /// or the finest before the reference, whose errors are the margin of all before; the last
+    /// one takes whatever is left.
     pub(super) fn is_of_use(&self, stage: usize, alpha: f64) -> bool {
-        let bound = self.bound_at(stage, alpha);
-        let is_finer = (0..stage).all(|before| OF_USE * bound < self.bound_at(before, alpha));
-        stage + 1 == self.bakers.len() || bound.is_finite() && is_finer
+        let last = self.bakers.len() - 1;
+        let bound = |stage: usize| self.bound_at(stage, alpha);
+        let finest = (0..last).map(bound).fold(f64::INFINITY, f64::min);
+        let mut finest_so_far = f64::INFINITY;
+        let mut of_use = false;
+        for stage in 0..=stage {
+            let finer = FINER_BY * bound(stage) < finest_so_far
+                || bound(stage) == finest && finest < finest_so_far;
+            of_use = stage == last || finer;
+            if of_use {
+                finest_so_far = finest_so_far.min(bound(stage));
+            }
+        }
+        of_use
     }
 
     fn bound_at(&self, stage: usize, alpha: f64) -> f64 {
@@ -122,13 +127,14 @@ impl Stages {
     }
 }
 
-/// The work of a stage on a grid in numbers, for the report.
+/// The work of a stage on a grid in numbers, for the report; its errors are those of the rows where
+/// it is of use.
 pub(super) fn summary(
     by: String,
     errors: &Errors,
     grid: &Grid,
-    texels: usize,
-    decided: Option<usize>,
+    is_of_use: impl Fn(f64) -> bool,
+    (texels, decided): (usize, Option<usize>),
 ) -> Stage {
     let decades = [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
     let of_row = |&alpha: &f64| {
@@ -136,6 +142,7 @@ pub(super) fn summary(
         let by_decade = decades.map(|b| row.of(&[0.0, b])[1]);
         StageError { largest: row.of(&[1.0])[0], by_decade }
     };
-    let bounds = grid.alphas.iter().map(of_row).filter(|bound| bound.largest.is_finite());
+    let rows = grid.alphas.iter().filter(|&&alpha| is_of_use(alpha));
+    let bounds = rows.map(of_row).filter(|bound| bound.largest.is_finite());
     Stage { by, error: bounds.reduce(StageError::or_wider), texels, decided }
 }

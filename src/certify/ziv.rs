@@ -22,9 +22,11 @@ use crate::integrate::{Field, Integrand};
 use crate::numeric::ball::Ball;
 use rayon::prelude::*;
 
-/// Texels that pass through the second stage though the first has decided them, so that one checks
-/// the other: one in so many of a table, and at most so many, which cost a few milliseconds.
+/// One texel in so many passes through the second stage though the first has decided it, so that
+/// one checks the other.
 const AUDITED_OF: usize = 512;
+
+/// The most texels of a table that do, which cost a few milliseconds.
 const MOST_AUDITED: usize = 64;
 
 /// A table that a device has computed.
@@ -134,7 +136,7 @@ impl Run<'_> {
         let asked = self.open.len();
         let verdict =
             decide_all(&decider, integrals, self.channels, &mut self.values, &mut self.open);
-        self.note(format!("{name}, {}", rule.name), &decider.errors, asked, verdict);
+        self.note(format!("{name}, {}", rule.name), None, asked, (&decider.errors, verdict));
         Ok(())
     }
 
@@ -170,7 +172,8 @@ impl Run<'_> {
             self.tally.by_reference = verdict.decided;
             self.tally.smallest_distance = self.smallest_distance(&seen, &averages, &before);
         }
-        self.note(format!("CPU f64, {}", baker.rule.name), &decider.errors, asked, verdict);
+        let by = format!("CPU f64, {}", baker.rule.name);
+        self.note(by, Some(index), asked, (&decider.errors, verdict));
         self.seen.push((baker.rule, seen));
         Ok(())
     }
@@ -194,10 +197,10 @@ impl Run<'_> {
         let mut asked: Vec<usize> =
             (0..self.open.len()).filter(|&texel| self.open[texel] && is_of_use(texel)).collect();
         // What checks a device, or the first stage, passes through the first stage from this one on
-        // that has a bound for it.
+        // that is of use for it.
         let is_first = |from: usize, texel: usize| {
-            let has_bound = |stage: usize| self.stages.has_bound(stage, alpha(texel));
-            has_bound(index) && !(from..index).any(has_bound)
+            let is_of_use = |stage: usize| self.stages.is_of_use(stage, alpha(texel));
+            is_of_use(index) && !(from..index).any(is_of_use)
         };
         if self.device.is_some() {
             asked.extend(sample(self.task.grid).filter(|&texel| is_first(0, texel)));
@@ -229,12 +232,15 @@ impl Run<'_> {
         smallest
     }
 
-    /// Notes the work of a stage. The last one sees whatever is open, so that only its errors
-    /// count.
-    fn note(&mut self, by: String, errors: &Errors, texels: usize, verdict: Verdict) {
+    /// Notes the work of a stage, none of a device, on so many texels. The last one sees whatever
+    /// is open, so that only its errors count.
+    fn note(&mut self, by: String, stage: Option<usize>, texels: usize, of: (&Errors, Verdict)) {
+        let (errors, verdict) = of;
         let decided = self.stages.rounds_correctly.then_some(verdict.decided);
+        let is_of_use = |alpha| stage.is_none_or(|stage| self.stages.is_of_use(stage, alpha));
+        let summary = summary(by, errors, self.task.grid, is_of_use, (texels, decided));
         self.tally.error = verdict.error;
-        self.tally.stages.push(summary(by, errors, self.task.grid, texels, decided));
+        self.tally.stages.push(summary);
     }
 
     /// Compares the integrals of a stage with the device's, and with those of the one before it.

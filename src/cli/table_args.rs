@@ -115,8 +115,8 @@ pub struct TableArgs {
     /// f16, 3e-5 for a2b10g10r10, 1e-4 for unorm8; more for models of which a device keeps less]
     #[arg(long, value_name = "ERROR", conflicts_with = "rule", allow_hyphen_values = true)]
     tolerance: Option<f64>,
-    /// Store the values of this quadrature rule, not certified; those that begin with h, and g560
-    /// to g2240, run on Vulkan too
+    /// Store the values of this quadrature rule, not certified; h56 to h6144, and g560 to g2240,
+    /// run on Vulkan too
     #[arg(long, value_name = "NAME", value_parser = choices::rule())]
     rule: Option<String>,
     /// Repeat an engine's own numbers, not certified, for example hammersley,n=1024,frame=cos:

@@ -14,7 +14,7 @@ use crate::certify::ziv::certify;
 use crate::choice::{Choice, choice};
 use crate::error::{Error, Result};
 use crate::integrate::ScaleBias;
-use crate::integrate::rule::{Method, Rule};
+use crate::integrate::rule::{GRAZING, Method, Rule};
 use crate::integrate::rules::RULES;
 use crate::lut::{Dfg, DfgChannels, Lut};
 use crate::numeric::lanes::{F32x16, F64x8};
@@ -184,7 +184,7 @@ impl Setting {
             Setting::AnalyticFit(_) => 1.0,
             Setting::Rule(rule) => of(*rule),
             Setting::Certified(Precision::F32) => Rule::for_cpu(lobe, 1e-6, texels).map_or(0.0, of),
-            Setting::Certified(_) => Rule::for_rounding(lobe, 1.0, texels).map_or(0.0, of),
+            Setting::Certified(_) => Rule::for_rounding(lobe, GRAZING, texels).map_or(0.0, of),
         }
     }
 

@@ -24,9 +24,9 @@ pub const BLINN_PHONG_LIMIT: f64 = 0.49;
 /// are several times as sharp as below.
 pub const WIDE_LAYER: f64 = 0.01;
 
-/// From this n·v on, the centre of the first texel of 2,048, terms of GGX and of Charlie that have
-/// a layer at the horizon are followed better than below, where that layer is thinner than any
-/// rule's nodes lie apart.
+/// From this n·v on, the centre of the first texel of 2,048, several bounds are narrower: below it
+/// the layer at the horizon of terms that couple both directions, of Neubelt's and of a smooth GGX
+/// is thinner than any rule's nodes lie apart.
 pub const GRAZING: f64 = 1.0 / 4096.0;
 
 /// Below this α (roughness 1e-5) the reference keeps 2e-6 of Charlie only, and nothing is known
@@ -167,8 +167,9 @@ pub struct Columns {
 }
 
 /// The bounds for a lobe at an α where n·v is at least `mu`: for GGX and Charlie wider below
-/// [`WIDE_LAYER`] and [`GRAZING`], and for Charlie wider still below [`CHARLIE_LIMIT`] and
-/// [`CHARLIE_UNKNOWN`]; for Blinn-Phong wider above [`BLINN_PHONG_LIMIT`].
+/// [`WIDE_LAYER`] and, but for uncoupled and implicit terms on rough rows, below [`GRAZING`], and
+/// for Charlie wider still below [`CHARLIE_LIMIT`] and [`CHARLIE_UNKNOWN`]; for Blinn-Phong wider
+/// above [`BLINN_PHONG_LIMIT`].
 pub const fn columns(lobe: Microfacet, mu: f64, alpha: f64) -> &'static Columns {
     let grazing = mu < GRAZING;
     match lobe.ndf {
@@ -224,7 +225,7 @@ const GGX_BELOW_WIDE_LAYER: Columns = Columns {
 const GGX_GRAZING: Columns = Columns {
     l2048: sharp(4e-8, 1e-6, 1e-10),
     l4608: sharp(3.5e-9, 8e-8, 1e-12),
-    s1440: sharp(4.5e-8, 7.5e-7, 2e-10),
+    s1440: sharp(4.5e-8, 7.5e-7, 3e-10),
     s2304: sharp(4e-9, 2e-7, 1.5e-11),
     ..GGX_GRAZING_BELOW_WIDE_LAYER
 };

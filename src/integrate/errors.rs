@@ -158,15 +158,20 @@ impl Errors {
     }
 
     /// The bounds of the errors of these averages at one α, but for those of the averages'
-    /// quadrature: the integrals' own beyond [`GRAZING`], and below it their share of an average,
-    /// 2 ∫ μ dμ = [`GRAZING`]².
+    /// quadrature: the integrals' own beyond [`GRAZING`], and below it the share of an average
+    /// there.
+    ///
+    /// That is 2 ∫ μ dμ = [`GRAZING`]², and where albedos exceed 1 twice ∫ μ E dμ, since errors are
+    /// relative to them: Neubelt's E is at most 0.4/√α where n·v < √α and falls like a Gaussian
+    /// beyond, so that the share is at most 0.4 √α, and 0.4 [`GRAZING`]²/√α.
     pub fn of_averages(&self, alpha: f64, averages: &[f64]) -> [f64; MOST_WEIGHTS] {
-        let mut errors = self.row(GRAZING, alpha).of(averages);
-        let at_grazing = self.row(0.0, alpha).of(averages);
-        for (error, at_grazing) in errors.iter_mut().zip(at_grazing) {
-            *error += GRAZING * GRAZING * at_grazing;
-        }
-        errors
+        let exceeds = match self.integrand {
+            Integrand::Specular(lobe, _) => lobe.may_exceed_one(),
+            Integrand::Glass(_) | Integrand::Diffuse(_) => false,
+        };
+        let share = if exceeds { GRAZING } else { GRAZING * GRAZING };
+        let at_grazing = share * self.row(0.0, alpha).largest();
+        self.row(GRAZING, alpha).of(averages).map(|error| error + at_grazing)
     }
 }
 

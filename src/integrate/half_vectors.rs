@@ -11,8 +11,8 @@
 //! x > 0 on the full circle up to τ = t1 = μ/(1+sin θ_v), on |φ| < φ_m with cos φ_m = -m/s up to τ
 //! = 1/t1, and nowhere beyond. Each piece is smooth, so a Gauss rule converges on each; but φ_m
 //! changes like a root at both ends of the second, so that errors fall with the fifth power of the
-//! number of its slopes only, unless they crowd there. That pays for many nodes, and for lobes that
-//! do not end before: with few the rest of the lobe needs them more.
+//! number of its slopes only, unless they crowd there. That pays where a rule has many nodes and
+//! the lobe reaches those ends; few nodes are needed elsewhere.
 
 use super::{Integrals, Kernel};
 use crate::brdf::Microfacet;

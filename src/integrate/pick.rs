@@ -5,7 +5,7 @@ use super::bounds::Bound;
 use super::errors::f32_arithmetic;
 use super::rule::{Method, Rule};
 use super::rules::{
-    COARSE_ERROR, COARSE_REFERENCE, FINER, FINER_REFERENCE, G560, REFERENCE, RULES,
+    COARSE_ERROR, COARSE_REFERENCE, FINER, FINER_BY, FINER_REFERENCE, G560, REFERENCE, RULES,
 };
 use crate::error::{Error, Result};
 
@@ -65,14 +65,15 @@ impl Rule {
     fn seconds_after_rounding(&self, integrand: Integrand, mu: f64, texels: usize) -> f64 {
         // Fitted to what was measured with f16, within a factor of three: of the texels s1440,
         // which errs by 1.2e-8 and where B is small by 3e-10, leaves 0.2 %, s1248 with 1.8e-8 and
-        // 6.5e-10 0.4 %, s1360 with 8e-10 and 2.2e-10 0.5 %.
+        // 6.5e-10 0.4 %, s1360 with 8e-10 and 2.4e-10 0.5 %.
         const UNDECIDED_BY_ERROR: f64 = 5e4;
         const UNDECIDED_BY_ABSOLUTE: f64 = 1e7;
-        // Those of most rows.
-        let bounds = |rule: &Rule| rule.bounds_at(integrand, mu, 1.0);
+        // Those of most rows: roughness 0.5.
+        let bounds = |rule: &Rule| rule.bounds_at(integrand, mu, 0.25);
         let Bound { all, absolute, .. } = bounds(self);
-        let finer =
-            FINER.into_iter().find(|rule| rule.applies_to(integrand) && bounds(rule).all < all);
+        let finer = FINER
+            .into_iter()
+            .find(|rule| rule.applies_to(integrand) && FINER_BY * bounds(rule).all < all);
         let share = UNDECIDED_BY_ERROR * all + UNDECIDED_BY_ABSOLUTE * absolute;
         let undecided = share.min(1.0) * texels as f64;
         finer.map_or(0.0, |finer| undecided * finer.seconds(integrand, 1))

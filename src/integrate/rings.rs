@@ -10,8 +10,8 @@
 //! small, and those beyond cos(ε/2) for every φ. Seen from the horizon, the ring lies at the start
 //! of the first piece, where its nodes crowd, and so do those of the azimuth at its end, where n·l
 //! = 0: there the masking term has a layer. The azimuth's end is π where the first piece ends, and
-//! before that less by a root of what is left: a lobe that reaches so far has nodes that crowd at
-//! that end as well. Without them errors fall with the fifth power of their number only.
+//! before that less by a root of what is left: for a lobe that reaches so far nodes crowd at the
+//! end of the first piece too. Without that errors fall with the fifth power of their number only.
 
 use super::half_vectors::{Ring, TAIL_DEPTH, View, cut_circle, full_circle, midpoints};
 use super::{Integrals, Kernel};

@@ -1,6 +1,6 @@
 //! A quadrature rule: its method, and the lobes that it serves for.
 
-pub use super::bounds::{CHARLIE_LIMIT, CHARLIE_UNKNOWN, MARGIN};
+pub use super::bounds::{CHARLIE_LIMIT, CHARLIE_UNKNOWN, GRAZING, MARGIN};
 
 use super::Integrand;
 use super::bent_rings::BentRingRule;
@@ -17,7 +17,8 @@ use crate::brdf::{Masking, Microfacet, Ndf};
 /// The method of a rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
-    /// Over half vectors: any lobe, CPU and device; with crowded slopes Blinn-Phong, CPU.
+    /// Over half vectors: any lobe, CPU and device; with crowded slopes Blinn-Phong with the
+    /// implicit term, CPU.
     HalfVectors(HalfVectorRule),
     /// Over directions of light, the azimuth in closed form: GGX, CPU.
     LightDirections(LightDirectionRule),
@@ -60,7 +61,7 @@ impl Rule {
     /// Whether a device can run it.
     pub fn runs_on_device(&self) -> bool {
         match self.method {
-            // Crowded slopes pay beyond what f32 resolves.
+            // What crowding gains is less than f32 resolves.
             Method::HalfVectors(rule) => !rule.crowded,
             Method::Glass(rule) => rule.fits_f32(),
             Method::LightDirections(_)

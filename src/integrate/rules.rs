@@ -33,7 +33,7 @@ pub const H640: Rule = rule("h640", Method::HalfVectors(H640_NODES), |bounds| bo
 /// Over half vectors.
 pub const H1536: Rule =
     rule("h1536", Method::HalfVectors(nodes([48, 16, 48, 16], Power::Four)), |bounds| bounds.h1536);
-/// The finest over half vectors.
+/// The finest over half vectors for any lobe.
 pub const H6144: Rule =
     rule("h6144", Method::HalfVectors(nodes([96, 32, 96, 32], Power::Four)), |bounds| bounds.h6144);
 
@@ -128,10 +128,10 @@ pub const G4536: Rule = glass_rule(
 pub const L288: Rule = rule("l288", Method::LightDirections(L288_NODES), |bounds| bounds.l288);
 /// Over directions of light; [`S640`] takes its integrals.
 pub const L512: Rule = rule("l512", Method::LightDirections(L512_NODES), |bounds| bounds.l512);
-/// Over directions of light; the interpolants of certification take its integrals.
+/// Over directions of light; [`S1120`], [`S1440`] and [`S896`] take its integrals.
 pub const L2048: Rule = rule("l2048", Method::LightDirections(L2048_NODES), |bounds| bounds.l2048);
-/// Over directions of light, the finest; [`S2304`] takes its integrals, and [`S1440`] outside of
-/// its domain.
+/// Over directions of light, the finest; [`S2304`] takes its integrals, and those of certification
+/// outside of their domain.
 pub const L4608: Rule = rule("l4608", Method::LightDirections(L4608_NODES), |bounds| bounds.l4608);
 
 /// Over planes of light directions, the cheaper; [`S1008`] takes its integrals.
@@ -187,6 +187,9 @@ pub const S1008: Rule = interpolant("s1008", S1008_NODES, |bounds| bounds.s1008)
 pub const S1248: Rule = interpolant("s1248", S1248_NODES, |bounds| bounds.s1248);
 /// Interpolated in pieces, for Charlie with it: the first stage of certification.
 pub const S1360: Rule = interpolant("s1360", S1360_NODES, |bounds| bounds.s1360);
+
+/// How many times as fine as a rule another has to be to be worth asking after it.
+pub const FINER_BY: f64 = 1.5;
 
 /// What decides the values that a first rule leaves undecided, in this order: of those that apply,
 /// rules that are finer on some rows than all before.

@@ -16,7 +16,7 @@ use crate::brdf::interface::Interface;
 use crate::brdf::{Fresnel, Microfacet};
 use crate::error::{Error, Result};
 use crate::integrate::Integrand;
-use crate::integrate::rule::{MARGIN, Rule};
+use crate::integrate::rule::{GRAZING, MARGIN, Rule};
 use crate::integrate::rules::RULES;
 use crate::table::grid::Grid;
 use std::time::Instant;
@@ -164,7 +164,7 @@ fn hunts<'a>(seed: u64, rules: &[(Integrand, Rule)], devices: &'a [Gpu]) -> Vec<
             let same = |hunt: &&mut Hunt| {
                 hunt.of == of && hunt.truth == truth && hunt.on_devices == gpu.is_some()
             };
-            let track = |integral| Track { rule, gpu, integral, worst: Vec::new() };
+            let track = |integral| Track { rule, gpu, integral, worst: Default::default() };
             let tracks: Vec<Track> = of.names().into_iter().map(track).collect();
             match hunts.iter_mut().find(same) {
                 Some(hunt) => hunt.tracks.extend(tracks),
@@ -195,7 +195,7 @@ fn found(hunts: Vec<Hunt>) -> Search {
     let mut search = Search::default();
     for hunt in hunts {
         search.points += hunt.points;
-        search.findings.extend(hunt.tracks.iter().filter_map(|track| track.finding(hunt.of)));
+        search.findings.extend(hunt.tracks.iter().flat_map(|track| track.findings(hunt.of)));
     }
     let place = |f: &Finding| (f.device.clone(), RULES.iter().position(|rule| rule.name == f.rule));
     search.findings.sort_by_key(place);
@@ -221,8 +221,9 @@ struct Track<'a> {
     rule: Rule,
     gpu: Option<&'a Gpu>,
     integral: &'static str,
-    /// The worst places, apart from each other, the worst first.
-    worst: Vec<Worst>,
+    /// The worst places, apart from each other, the worst first: below [`GRAZING`] and from there
+    /// on, where many bounds are narrower.
+    worst: [Vec<Worst>; 2],
 }
 
 #[derive(Clone, Copy)]
@@ -259,9 +260,10 @@ impl Hunt<'_> {
         let mut points: Vec<Place> = (0..starts).map(|i| self.places.start(i)).collect();
         for track in &self.tracks {
             for step in 0..plan.steps {
-                // Half of the steps are the worst summit's.
+                // Half of the steps are on either side, and of those half the worst summit's.
+                let (side, step) = (&track.worst[step % 2], step / 2);
                 let summit = if step % 2 == 0 { 0 } else { step / 2 % SUMMITS };
-                if let Some(worst) = track.worst.get(summit).or(track.worst.first()) {
+                if let Some(worst) = side.get(summit).or(side.first()) {
                     points.push(self.places.near(worst.place));
                 }
             }
@@ -337,29 +339,39 @@ impl Track<'_> {
     /// Keeps what is worse than the summit it is on, or than the lowest.
     fn tell(&mut self, new: Worst) {
         let share = new.ratio();
-        if share == 0.0
-            || (self.worst.len() >= SUMMITS
-                && self.worst.iter().all(|worst| worst.ratio() >= share))
-        {
+        let side = &mut self.worst[usize::from(new.place.mu >= GRAZING)];
+        let is_worse = |worst: &Worst| worst.ratio() >= share;
+        if share == 0.0 || side.len() >= SUMMITS && side.iter().all(is_worse) {
             return;
         }
-        if self
-            .worst
-            .iter()
-            .any(|worst| worst.place.near(new.place, APART) && worst.ratio() >= share)
-        {
+        if side.iter().any(|worst| worst.place.near(new.place, APART) && is_worse(worst)) {
             return;
         }
-        self.worst.retain(|worst| !worst.place.near(new.place, APART));
-        let at = self.worst.partition_point(|worst| worst.ratio() >= share);
-        self.worst.insert(at, new);
-        self.worst.truncate(SUMMITS);
+        side.retain(|worst| !worst.place.near(new.place, APART));
+        let at = side.partition_point(is_worse);
+        side.insert(at, new);
+        side.truncate(SUMMITS);
     }
 
-    fn finding(&self, of: Integrand) -> Option<Finding> {
-        let &Worst { place: Place { mu, alpha }, error, bound } = self.worst.first()?;
+    /// The worst place, and the worst beyond [`GRAZING`] where the bound is narrower there.
+    fn findings(&self, of: Integrand) -> Vec<Finding> {
+        let is_narrower = |worst: &&Worst| {
+            let Place { mu, alpha } = worst.place;
+            self.rule.bound_at(of, mu, alpha) < self.rule.bound_at(of, 0.0, alpha)
+        };
+        let [grazing, beyond] = [0, 1].map(|side| self.worst[side].first());
+        let worst = match (grazing, beyond) {
+            (Some(grazing), Some(beyond)) if is_narrower(&beyond) => vec![grazing, beyond],
+            (Some(grazing), Some(beyond)) if beyond.ratio() > grazing.ratio() => vec![beyond],
+            (grazing, beyond) => grazing.or(beyond).into_iter().collect(),
+        };
+        worst.into_iter().map(|worst| self.finding(of, worst)).collect()
+    }
+
+    fn finding(&self, of: Integrand, worst: &Worst) -> Finding {
+        let &Worst { place: Place { mu, alpha }, error, bound } = worst;
         let device = self.gpu.map(|gpu| gpu.info().name.clone());
-        Some(Finding {
+        Finding {
             rule: self.rule.name,
             device,
             of,
@@ -368,6 +380,6 @@ impl Track<'_> {
             alpha,
             error,
             bound,
-        })
+        }
     }
 }

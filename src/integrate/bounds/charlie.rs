@@ -17,7 +17,7 @@ pub const fn charlie_columns(masking: Masking, grazing: bool, alpha: f64) -> &'s
     match masking {
         Masking::HeightCorrelated => &FITTED[level],
         Masking::Implicit => &IMPLICIT[level],
-        _ if grazing => &GRAZING[level],
+        _ if grazing => &NEUBELT_GRAZING[level],
         _ => &NEUBELT[level],
     }
 }
@@ -26,7 +26,7 @@ pub const fn charlie_columns(masking: Masking, grazing: bool, alpha: f64) -> &'s
 type Levels = [Columns; 4];
 
 /// With Neubelt's term, whose layer at the horizon is as thin as n·v.
-const GRAZING: Levels = [WIDE, BELOW_WIDE_LAYER, BELOW_LIMIT, UNKNOWN_BELOW];
+const NEUBELT_GRAZING: Levels = [WIDE, BELOW_WIDE_LAYER, BELOW_LIMIT, UNKNOWN_BELOW];
 
 /// Beyond [`super::GRAZING`].
 const NEUBELT: Levels =
@@ -45,22 +45,22 @@ const FITTED: Levels = [
     Columns { h640: all(6e-4), h1536: all(2e-4), h6144: all(3e-5), ..UNKNOWN_BELOW },
 ];
 
-const fn neubelt(grazing: Columns) -> Columns {
+const fn neubelt(base: Columns) -> Columns {
     Columns {
         r976: sharp(1e-9, 2e-7, 7e-11),
         r1776: sharp(1.3e-11, 1e-9, 1e-12),
         r6080: sharp(2e-13, 5e-12, 5e-15),
         s1792: sharp(1.4e-9, 5e-7, 3.4e-10),
-        ..grazing
+        ..base
     }
 }
 
-const fn implicit(grazing: Columns) -> Columns {
+const fn implicit(base: Columns) -> Columns {
     Columns {
         r976: sharp(1e-10, 1e-6, 1.5e-11),
         r1776: sharp(2e-13, 5e-12, 5e-15),
         r6080: sharp(2e-13, 5e-12, 5e-15),
-        ..grazing
+        ..base
     }
 }
 

@@ -1,7 +1,9 @@
 //! Numbers of nodes of the rules for glass, and the nodes.
 
 use crate::brdf::interface::Side;
-use crate::numeric::quadrature::gauss_legendre::{Node, gauss_legendre, half_gauss};
+use crate::numeric::quadrature::gauss_legendre::{
+    Node, crowded_at_both_ends, crowded_at_end, gauss_legendre, half_gauss,
+};
 use crate::numeric::quadrature::slope_map::Power;
 
 /// Numbers of nodes for one of the two integrals from one side.
@@ -66,19 +68,11 @@ impl Counts {
     }
 
     fn nodes(self) -> ExitNodes {
-        let crowd = |Node { at, weight }: Node| Node {
-            at: at * at * (3.0 - 2.0 * at),
-            weight: weight * 6.0 * at * (1.0 - at),
-        };
-        let slopes = gauss_legendre(self.slopes).into_iter();
-        let root = |Node { at, weight }: Node| Node {
-            at: 1.0 - (1.0 - at) * (1.0 - at),
-            weight: weight * 2.0 * (1.0 - at),
-        };
+        let slopes = gauss_legendre(self.slopes);
         ExitNodes {
-            slopes: if self.crowded { slopes.map(crowd).collect() } else { slopes.collect() },
+            slopes: if self.crowded { crowded_at_both_ends(slopes) } else { slopes },
             even: half_gauss(self.azimuths),
-            root: gauss_legendre(self.azimuths).into_iter().map(root).collect(),
+            root: crowded_at_end(gauss_legendre(self.azimuths)),
             total_even: half_gauss(self.total),
             total: gauss_legendre(self.total),
             power: self.power,

@@ -1,7 +1,7 @@
-//! The nodes of the interpolants. But for s640 and s2304, maps and pieces are those that reach 1e-7
-//! in E and 2e-9 in the rests with the fewest nodes, of ten to forty maps that were tried for each
-//! distribution; those of uncoupled and implicit terms are sharper yet, where the few nodes more
-//! cost less than the values that they decide.
+//! The nodes of the interpolants. But for s640, s960, s1344 and s2304, maps and pieces are those
+//! that reach 1e-7 in E and 2e-9 in the rests with the fewest nodes, of ten to forty maps that were
+//! tried for each distribution; those of uncoupled and implicit terms are sharper yet, where the
+//! few nodes more cost less than the values that they decide.
 
 use super::{Beyond, InterpolantRule, Layer, Map, Piece, SMOOTHEST, Source};
 use crate::brdf::Masking::{self, HeightCorrelated, HeightCorrelatedApprox};

@@ -12,12 +12,12 @@ pub struct Node {
     pub weight: f64,
 }
 
-/// Rules with fewer nodes than this are worked out once: averages ask for theirs row by row.
-const KEPT: usize = 257;
+/// Rules of so many nodes and fewer are worked out once: averages ask for theirs row by row.
+const MOST_KEPT: usize = 256;
 
 /// The rule with `n` nodes, in ascending order.
 pub fn gauss_legendre(n: usize) -> Vec<Node> {
-    static RULES: [OnceLock<Vec<Node>>; KEPT] = [const { OnceLock::new() }; KEPT];
+    static RULES: [OnceLock<Vec<Node>>; MOST_KEPT + 1] = [const { OnceLock::new() }; MOST_KEPT + 1];
     match RULES.get(n) {
         Some(kept) => kept.get_or_init(|| work_out(n)).clone(),
         None => work_out(n),
