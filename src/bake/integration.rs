@@ -92,11 +92,9 @@ impl Integration<'_> {
 
     /// Integrates over a grid, and checks what comes out.
     pub fn over(&mut self, grid: &Grid, progress: Progress) -> Result<Field> {
-        let bound = grid
-            .alphas
-            .iter()
-            .map(|&alpha| self.baker.rule.bound_at(self.integrand, grid.least_mu(), alpha))
-            .fold(0.0, f64::max);
+        let least_mu = grid.least_mu();
+        let bound_at = |&alpha: &f64| self.baker.rule.bound_at(self.integrand, least_mu, alpha);
+        let bound = grid.alphas.iter().map(bound_at).fold(0.0, f64::max);
         let bound = bound + self.arithmetic();
         let Integration { integrand, baker, gpu, checked, .. } = self;
         let rule = &baker.rule;

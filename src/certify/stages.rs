@@ -27,8 +27,8 @@ const SOME_ALPHAS: [f64; 2] = [0.1, 1.0];
 #[derive(Clone, Debug)]
 pub struct Stages {
     integrand: Integrand,
-    /// Of the table.
-    least_mu: f64,
+    /// The least n·v of the table, from which on bounds are asked.
+    pub(super) least_mu: f64,
     pub(super) bakers: Vec<Baker>,
     /// Whether values are rounded correctly: of f32 only few values, and those in closed form.
     pub(super) rounds_correctly: bool,
@@ -125,24 +125,26 @@ impl Stages {
     pub(super) fn is_reference(&self, stage: usize) -> bool {
         self.bakers[stage].rule.is_reference()
     }
-}
 
-/// The work of a stage on a grid in numbers, for the report; its errors are those of the rows where
-/// it is of use.
-pub(super) fn summary(
-    by: String,
-    errors: &Errors,
-    grid: &Grid,
-    is_of_use: impl Fn(f64) -> bool,
-    (texels, decided): (usize, Option<usize>),
-) -> Stage {
-    let decades = [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
-    let of_row = |&alpha: &f64| {
-        let row = errors.row(grid.least_mu(), alpha);
-        let by_decade = decades.map(|b| row.of(&[0.0, b])[1]);
-        StageError { largest: row.of(&[1.0])[0], by_decade }
-    };
-    let rows = grid.alphas.iter().filter(|&&alpha| is_of_use(alpha));
-    let bounds = rows.map(of_row).filter(|bound| bound.largest.is_finite());
-    Stage { by, error: bounds.reduce(StageError::or_wider), texels, decided }
+    /// The work of a stage, none of a device, on a grid in numbers, for the report; its errors are
+    /// those of the rows where it is of use.
+    pub(super) fn summary(
+        &self,
+        by: String,
+        stage: Option<usize>,
+        errors: &Errors,
+        grid: &Grid,
+        (texels, decided): (usize, Option<usize>),
+    ) -> Stage {
+        let decades = [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
+        let of_row = |&alpha: &f64| {
+            let row = errors.row(self.least_mu, alpha);
+            let by_decade = decades.map(|b| row.of(&[0.0, b])[1]);
+            StageError { largest: row.of(&[1.0])[0], by_decade }
+        };
+        let is_of_use = |alpha| stage.is_none_or(|stage| self.is_of_use(stage, alpha));
+        let rows = grid.alphas.iter().filter(|&&alpha| is_of_use(alpha));
+        let bounds = rows.map(of_row).filter(|bound| bound.largest.is_finite());
+        Stage { by, error: bounds.reduce(StageError::or_wider), texels, decided }
+    }
 }

@@ -10,7 +10,7 @@
 use super::decider::{BOTH_SIDES, Decider, Verdict, finest};
 use super::decision::{Averages, Seen, Task, check_apart};
 use super::deviation::{check_range, sample, scatter};
-use super::stages::{Stages, summary};
+use super::stages::Stages;
 use super::tally::Tally;
 use crate::backend::Progress;
 use crate::backend::cpu::Baker;
@@ -128,7 +128,7 @@ impl Run<'_> {
             task: self.task,
             averages: &averages,
             errors: rule.device_errors(integrand),
-            least_mu: self.task.grid.least_mu(),
+            least_mu: self.stages.least_mu,
             margins: &margins,
             exact_mirrors: false,
             rounds_correctly: self.stages.rounds_correctly,
@@ -151,7 +151,7 @@ impl Run<'_> {
             task: self.task,
             averages: &averages,
             errors: baker.rule.errors(integrand),
-            least_mu: self.task.grid.least_mu(),
+            least_mu: self.stages.least_mu,
             margins: &margins,
             exact_mirrors: true,
             rounds_correctly: self.stages.rounds_correctly,
@@ -237,8 +237,7 @@ impl Run<'_> {
     fn note(&mut self, by: String, stage: Option<usize>, texels: usize, of: (&Errors, Verdict)) {
         let (errors, verdict) = of;
         let decided = self.stages.rounds_correctly.then_some(verdict.decided);
-        let is_of_use = |alpha| stage.is_none_or(|stage| self.stages.is_of_use(stage, alpha));
-        let summary = summary(by, errors, self.task.grid, is_of_use, (texels, decided));
+        let summary = self.stages.summary(by, stage, errors, self.task.grid, (texels, decided));
         self.tally.error = verdict.error;
         self.tally.stages.push(summary);
     }
